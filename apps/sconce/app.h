@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every verb shares. One file per verb; main.cpp holds the table; options.cpp is the only file that includes CLI11.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+
+namespace sconce::app {
+
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kDiffers = 3 };
+
+/// Declares a verb's options once: command line, --config / side-file key, --help, provenance. A value is read from the
+/// command line, else from the [options] table of --config or of the scene's side file, else it stays the default.
+class Options {
+ public:
+  explicit Options(std::string verb, std::string summary);
+  ~Options();
+
+  void positional(const std::string& name, std::string* value, const std::string& doc, bool required = true);
+  void positionals(const std::string& name, std::vector<std::string>* values, const std::string& doc, bool required = false);
+  void option(const std::string& names, std::string* value, const std::string& doc);
+  void option(const std::string& names, std::vector<std::string>* values, const std::string& doc);
+  void option(const std::string& names, int* value, const std::string& doc);
+  void option(const std::string& names, double* value, const std::string& doc);  ///< accepts 2% as 0.02
+  void flag(const std::string& names, bool* value, const std::string& doc);
+
+  /// Common to all: --json, --quiet, --threads N, --config FILE, --help.
+  /// @return exit code when nothing is left to do (help, usage error), else nullopt
+  std::optional<int> parse(int argc, const char* const* argv);
+  /// Applies `[options]` of a TOML file where the command line said nothing. @throws UsageError (file:line, key, allowed)
+  void apply_file(const std::string& path, const std::string& source_name);
+
+  struct Value {
+    std::string value, source;  ///< source: "default", "command line", "FILE"
+  };
+  std::map<std::string, Value> provenance() const;
+
+  bool json = false, quiet = false;
+  int threads = 0;
+  std::string config;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Progress with ETA on a terminal (stderr), warnings on stderr, Ctrl-C as a stop request.
+Progress make_progress(const Options& options);
+
+struct Verb {
+  const char* name;
+  const char* summary;
+  int (*run)(int argc, const char* const* argv);
+};
+
+int run_info(int argc, const char* const* argv);
+int run_bake(int argc, const char* const* argv);
+int run_merge(int argc, const char* const* argv);
+int run_mix(int argc, const char* const* argv);
+int run_render(int argc, const char* const* argv);
+int run_diff(int argc, const char* const* argv);
+
+}  // namespace sconce::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files to Scene. One file per format; each ends in the same plain Scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "scene/scene.h"
+
+namespace sconce {
+
+/// A scene file by its format (tried in order; "not mine" is not "broken"), then its side file NAME.toml beside it, then
+/// validate(). Groups are not yet assigned (scene/groups.h). Missing meshes and textures are warnings that name them.
+/// @throws Error: one line, file and place
+Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
+
+/// glTF 2.0, .gltf and .glb. @throws NotMyFormat, Error
+Scene import_gltf(const std::filesystem::path& path, const Progress& progress = {});
+/// OBJ + MTL through assimp. @throws NotMyFormat, Error
+Scene import_obj(const std::filesystem::path& path, const Progress& progress = {});
+
+/// `kitchen.toml` of `kitchen.glb`: adds or overrides lights, groups, emission, cameras, sky. Unknown keys are errors
+/// with file:line. The [options] table is the command line's business and ignored here.
+void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress = {});
+
+/// Files besides `path` that the scene was read from (buffers, textures, side file), for content hashes.
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& path);
+
+}  // namespace sconce

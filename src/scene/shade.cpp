@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures and materials at a point.
+#include <array>
+
+#include "scene/world.h"
+
+namespace sconce {
+
+namespace {
+
+/// 8-bit sRGB and linear codes as linear floats.
+struct DecodeTables {
+  std::array<float, 256> srgb, linear;
+  DecodeTables() {
+    for (int i = 0; i < 256; ++i) {
+      linear[static_cast<std::size_t>(i)] = static_cast<float>(i) / 255.0f;
+      srgb[static_cast<std::size_t>(i)] = srgb_to_linear(static_cast<float>(i) / 255.0f);
+    }
+  }
+};
+const DecodeTables& tables() {
+  static const DecodeTables decode;
+  return decode;
+}
+
+int wrap(int i, int size, Texture::Wrap mode) {
+  switch (mode) {
+    case Texture::Wrap::clamp:
+      return std::clamp(i, 0, size - 1);
+    case Texture::Wrap::mirror: {
+      int j = i % (2 * size);
+      if (j < 0) j += 2 * size;
+      return j < size ? j : 2 * size - 1 - j;
+    }
+    case Texture::Wrap::repeat:
+      break;
+  }
+  const int j = i % size;
+  return j < 0 ? j + size : j;
+}
+
+Texel fetch(const Texture& texture, int x, int y, bool srgb) {
+  const Image8& image = texture.pixels;
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::size_t at = (static_cast<std::size_t>(wrap(y, image.height, texture.wrap_v)) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(wrap(x, image.width, texture.wrap_u))) * channels;
+  const unsigned char* p = &image.data[at];
+  const auto& lut = srgb ? tables().srgb : tables().linear;
+  if (channels < 3) return {Rgb(lut[p[0]]), channels == 2 ? tables().linear[p[1]] : 1.0f};
+  return {Rgb(lut[p[0]], lut[p[1]], lut[p[2]]), channels == 4 ? tables().linear[p[3]] : 1.0f};
+}
+
+}  // namespace
+
+Vec2 TextureUse::transform(Vec2 uv) const {
+  const Vec2 s = scale * uv;
+  if (rotation == 0.0f) return offset + s;
+  // KHR_texture_transform: a positive angle turns the coordinates, hence the image, counter-clockwise with v down.
+  const float c = std::cos(rotation), n = std::sin(rotation);
+  return offset + Vec2(c * s.x + n * s.y, -n * s.x + c * s.y);
+}
+
+Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool srgb) {
+  if (!use.texture.valid()) return {};
+  const Texture& texture = scene[use.texture];
+  if (texture.pixels.data.empty()) return {};
+  const Vec2 st = use.transform(uv);
+  if (!std::isfinite(st.x) || !std::isfinite(st.y)) return {};
+  // Beyond 2^20 repeats floats no longer resolve a texel; fold first so that int never overflows.
+  const float u = std::fmod(st.x, 1048576.0f), v = std::fmod(st.y, 1048576.0f);
+  const double x = static_cast<double>(u) * texture.pixels.width, y = static_cast<double>(v) * texture.pixels.height;
+  if (texture.nearest)
+    return fetch(texture, static_cast<int>(std::fmod(std::floor(x), 1e9)), static_cast<int>(std::fmod(std::floor(y), 1e9)), srgb);
+  const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
+  const float wx = static_cast<float>(x - 0.5 - fx), wy = static_cast<float>(y - 0.5 - fy);
+  const int ix = static_cast<int>(std::fmod(fx, 1e9)), iy = static_cast<int>(std::fmod(fy, 1e9));
+  const Texel a = fetch(texture, ix, iy, srgb), b = fetch(texture, ix + 1, iy, srgb);
+  const Texel c = fetch(texture, ix, iy + 1, srgb), d = fetch(texture, ix + 1, iy + 1, srgb);
+  const float wa = (1 - wx) * (1 - wy), wb = wx * (1 - wy), wc = (1 - wx) * wy, wd = wx * wy;
+  return {wa * a.rgb + wb * b.rgb + wc * c.rgb + wd * d.rgb,
+          wa * a.alpha + wb * b.alpha + wc * c.alpha + wd * d.alpha};
+}
+
+Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 barycentric) {
+  const Material& material = scene[world.materials[triangle]];
+  Shade result;
+  result.base_color = material.base_color;
+  result.alpha = material.alpha;
+  result.metallic = material.metallic;
+  result.emission = material.emission;
+  const auto look_up = [&](const TextureUse& use, bool srgb) {
+    return sample_texture(scene, use, world.texcoord(triangle, barycentric, use.texcoord), srgb);
+  };
+  if (material.base_color_texture.texture.valid()) {
+    const Texel texel = look_up(material.base_color_texture, true);
+    result.base_color *= texel.rgb;
+    result.alpha *= texel.alpha;
+  }
+  if (material.metallic_roughness_texture.texture.valid())
+    result.metallic *= look_up(material.metallic_roughness_texture, false).rgb.b;
+  if (material.emits() && material.emission_texture.texture.valid())
+    result.emission *= look_up(material.emission_texture, true).rgb;
+  return result;
+}
+
+}  // namespace sconce
