@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/primaries.h"
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace sconce {
+
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+double determinant(const Matrix& m) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+Matrix inverse(const Matrix& m) {
+  Matrix out;
+  const double d = determinant(m);
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
+      out[r][c] = (m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]) / d;
+    }
+  return out;
+}
+
+Matrix multiply(const Matrix& a, const Matrix& b) {
+  Matrix out{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k) out[r][c] += a[r][k] * b[k][c];
+  return out;
+}
+
+/// Columns are the primaries' XYZ, scaled so that (1, 1, 1) is the white with Y = 1.
+Matrix rgb_to_xyz(const std::array<float, 8>& p) {
+  Matrix m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = p[2 * i], y = p[2 * i + 1];
+    m[0][i] = x, m[1][i] = y, m[2][i] = 1 - x - y;
+  }
+  const double white[3] = {p[6] / double{p[7]}, 1.0, (1 - double{p[6]} - double{p[7]}) / double{p[7]}};
+  const Matrix back = inverse(m);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double scale = back[i][0] * white[0] + back[i][1] * white[1] + back[i][2] * white[2];
+    for (auto& row : m) row[i] *= scale;
+  }
+  return m;
+}
+
+}  // namespace
+
+void to_rec709(Image& image) {
+  const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
+  const std::array<float, 8> from = image.primaries;
+  if (r < 0 || g < 0 || b < 0 || from == kRec709Primaries) return;
+  const Matrix m = multiply(inverse(rgb_to_xyz(kRec709Primaries)), rgb_to_xyz(from));
+  if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return;  // degenerate primaries say nothing
+  parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t y) {
+    for (int x = 0; x < image.width; ++x) {
+      float* p = image.at(x, static_cast<int>(y));
+      const double c[3] = {p[r], p[g], p[b]};
+      p[r] = static_cast<float>(m[0][0] * c[0] + m[0][1] * c[1] + m[0][2] * c[2]);
+      p[g] = static_cast<float>(m[1][0] * c[0] + m[1][1] * c[1] + m[1][2] * c[2]);
+      p[b] = static_cast<float>(m[2][0] * c[0] + m[2][1] * c[1] + m[2][2] * c[2]);
+    }
+  });
+  image.primaries = kRec709Primaries;
+}
+
+Image rgb_part(const Image& image, const std::string& where) {
+  std::array<int, 3> from{image.channel("R"), image.channel("G"), image.channel("B")};
+  if (from[0] < 0 || from[1] < 0 || from[2] < 0) {
+    std::set<std::string> layers;
+    for (const std::string& c : image.channels)
+      if (c.size() > 2 && c.compare(c.size() - 2, 2, ".R") == 0) layers.insert(c.substr(0, c.size() - 1));
+    if (layers.size() > 1)
+      throw Error(where, "holds " + std::to_string(layers.size()) + " layers side by side, one is expected");
+    if (layers.size() == 1) {
+      const std::string& layer = *layers.begin();
+      from = {image.channel(layer + "R"), image.channel(layer + "G"), image.channel(layer + "B")};
+    }
+    if (layers.empty() || from[1] < 0 || from[2] < 0) {
+      const int only = image.channel("Y") >= 0 ? image.channel("Y") : 0;
+      from = {only, only, only};
+    }
+  }
+  Image out = Image::rgb(image.width, image.height);
+  out.text = image.text;
+  out.number = image.number;
+  out.primaries = image.primaries;
+  for (std::size_t i = 0; i < image.pixels(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      out.data[3 * i + c] = image.data[i * image.stride() + static_cast<std::size_t>(from[c])];
+  return out;
+}
+
+}  // namespace sconce
