@@ -28,12 +28,15 @@ class Options {
   void option(const std::string& names, std::vector<std::string>* values, const std::string& doc);
   void option(const std::string& names, int* value, const std::string& doc);
   void option(const std::string& names, double* value, const std::string& doc);  ///< accepts 2% as 0.02
+  void duration(const std::string& names, double* seconds, const std::string& doc);  ///< 90s, 10m, 1h; bare = seconds
   void flag(const std::string& names, bool* value, const std::string& doc);
 
-  /// Common to all: --json, --quiet, --threads N, --config FILE, --help.
+  /// Common to all: --json, --quiet, --threads N, --config FILE, --help. `argv` starts after the verb.
   /// @return exit code when nothing is left to do (help, usage error), else nullopt
   std::optional<int> parse(int argc, const char* const* argv);
-  /// Applies `[options]` of a TOML file where the command line said nothing. @throws UsageError (file:line, key, allowed)
+  /// Applies `[options]` of a TOML file where the command line and files applied before said nothing (--config is applied
+  /// by parse()). A file that does not exist or has no such table applies nothing.
+  /// @throws UsageError (file:line, key, allowed)
   void apply_file(const std::string& path, const std::string& source_name);
 
   struct Value {
@@ -53,6 +56,7 @@ class Options {
 /// Progress with ETA on a terminal (stderr), warnings on stderr, Ctrl-C as a stop request.
 Progress make_progress(const Options& options);
 
+/// `argv` of a verb starts after its name. A verb returns an ExitCode and throws Error; main() prints.
 struct Verb {
   const char* name;
   const char* summary;

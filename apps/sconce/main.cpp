@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <span>
+
+#include "app.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace {
+
+using namespace sconce;
+using namespace sconce::app;
+
+constexpr Verb kVerbs[] = {
+    {"info", "what is in a scene or a package: counts, groups with lumens, cameras, layers", run_info},
+    {"bake", "a scene to a package with one lightmap per light group", run_bake},
+    {"merge", "shards of one bake to a package", run_merge},
+    {"mix", "a package and group settings to one lightmap", run_mix},
+    {"render", "a package and group settings to a picture", run_render},
+    {"diff", "how far two images differ", run_diff},
+};
+
+std::string usage() {
+  std::string text =
+      "usage: sconce VERB [arguments]\n\nLight-group lightmaps: bake once, re-mix the lights afterwards.\n\n";
+  for (const Verb& verb : kVerbs) text += fmt::format("  {:<10}{}\n", verb.name, verb.summary);
+  return text + "\n'sconce VERB --help' lists a verb's options; 'sconce --version' names the version.\n";
+}
+
+int complain(std::string_view verb, const std::string& what, int code) {
+  // One line, whatever a library put into its message.
+  std::string line = what;
+  for (char& c : line) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  fmt::print(stderr, "sconce{}{}: {}\n", verb.empty() ? "" : " ", verb, line);
+  return code;
+}
+
+/// A report that did not reach its reader (full disk) is a failure too.
+int finish(const char* verb, int code) {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  return lost && code == kDone
+             ? complain(verb, std::string("standard output: ") + std::strerror(errno), kFailed)
+             : code;
+}
+
+int run(const Verb& verb, int argc, const char* const* argv) {
+  try {
+    return finish(verb.name, verb.run(argc, argv));
+  } catch (const UsageError& error) {
+    return complain(verb.name, error.what(), kUsage);
+  } catch (const Error& error) {
+    return complain(verb.name, error.what(), kFailed);
+  } catch (const std::bad_alloc&) {
+    return complain(verb.name, "out of memory", kFailed);
+  } catch (const std::exception& error) {
+    return complain(verb.name, std::string("unexpected failure: ") + error.what(), kFailed);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  if (name == "--help" || name == "-h" || name == "help") {
+    std::fputs(usage().c_str(), stdout);
+    return finish("", kDone);
+  }
+  if (name == "--version") {
+    fmt::print("sconce {}\n", SCONCE_VERSION);
+    return finish("", kDone);
+  }
+  std::vector<std::string> names;
+  for (const Verb& verb : kVerbs) {
+    if (name == verb.name) return run(verb, argc - 2, argv + 2);
+    names.emplace_back(verb.name);
+  }
+  if (name.empty())
+    return complain("", "missing verb (allowed: " + join(names, ", ") + "); see 'sconce --help'", kUsage);
+  const std::optional<std::string> nearest = nearest_name(name, names);
+  return complain("",
+                  fmt::format("unknown {} '{}'{} (allowed: {})", name.starts_with('-') ? "option" : "verb",
+                              name, nearest ? "; did you mean '" + *nearest + "'?" : "", join(names, ", ")),
+                  kUsage);
+}
