@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sconce {
+
+/// Picks an index in proportion to weights in O(1) (Walker 1977, Vose 1991).
+class AliasTable {
+ public:
+  AliasTable() = default;
+  /// @param weights  not negative; all zero counts as all equal
+  explicit AliasTable(std::span<const double> weights);
+
+  std::size_t size() const { return cells_.size(); }
+  double probability(std::size_t i) const { return probabilities_[i]; }
+
+  /// @param u  in [0,1); rescaled so that it is uniform again given the index
+  std::size_t sample(float& u) const;
+
+ private:
+  struct Cell {
+    float keep;
+    uint32_t alias;
+  };
+  std::vector<Cell> cells_;
+  std::vector<float> probabilities_;
+};
+
+}  // namespace sconce

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lamps: what rays and solvers see of the scene's lights. One file per kind; a new kind is one file and one row of the
+// variant (the compiler then lists what is missing).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "light/alias_table.h"
+#include "scene/world.h"
+
+namespace sconce {
+
+/// Light that arrives at a point from one lamp along one direction.
+struct LightSample {
+  Vec3 direction;        ///< from the point to the lamp, unit
+  float distance = 0;    ///< metres; kInfinite for sun and sky
+  Rgb radiance;          ///< cd/m2; for delta lamps the illuminance on a facing surface, lux
+  float pdf = 0;         ///< per steradian, of this direction given this lamp; 1 for delta lamps
+  bool delta = false;    ///< no direction picked at random ever meets this lamp
+};
+inline constexpr float kInfinite = 1e30f;
+
+/// Point or spot: I / d2, windowed by KHR_lights_punctual's range and cone.
+struct PunctualLamp {
+  Vec3 position, axis;
+  Rgb intensity;                      ///< cd
+  float range = 0;                    ///< m, 0 = infinite
+  float cos_inner = -1, cos_outer = -1;  ///< -1: a point light
+};
+/// Parallel light.
+struct SunLamp {
+  Vec3 direction;   ///< towards the sun, unit
+  Rgb illuminance;  ///< lux on a facing surface
+};
+/// Light from infinity: a constant, or a lat-long image sampled by luminance x solid angle.
+struct SkyLamp {
+  Rgb scale;                    ///< multiplies the image; the radiance where there is none, cd/m2
+  const Image* image = nullptr; ///< of the scene's SkyLight
+  Mat3 to_local{1.0f};
+  AliasTable pixels;            ///< probability per pixel
+};
+/// The front side of an emissive mesh instance (both sides where double-sided). Its triangles are consecutive.
+struct MeshLamp {
+  struct Piece {         ///< part of a triangle, small enough that its emission is nearly uniform
+    uint32_t triangle;
+    Vec2 b0, b1, b2;     ///< barycentric corners
+    float density;       ///< probability per m2 of a point of this piece
+  };
+  std::vector<Piece> pieces;
+  AliasTable table;      ///< probability per piece: area x relative emission, never the strength
+  uint32_t first_triangle = 0;
+  std::vector<uint32_t> first_piece;  ///< per triangle
+  std::vector<uint16_t> cut;          ///< per triangle: it is cut into cut x cut pieces
+  Vec3 center{0};
+  float radius = 0;      ///< of the bounding sphere
+  Vec3 axis{0};          ///< the common normal of a flat lamp that shines to one side, else zero
+  float plane = 0;       ///< no part of a flat lamp lies below dot(axis, p) = plane
+  double area = 0;       ///< m2, one side
+  bool two_sided = false;
+};
+
+using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp>;
+
+struct Lamp {
+  std::string name;
+  Id<LightGroup> group;
+  LampShape shape;
+  Rgb flux;               ///< lm per channel (Rec. 709); for sun and sky lux and pi x mean cd/m2
+  bool infinite = false;  ///< sun or sky
+};
+
+/// All lamps of a scene with what look-ups need. The scene and world must outlive it.
+class Lamps {
+ public:
+  Lamps(const Scene& scene, const World& world);
+
+  const std::vector<Lamp>& all() const { return lamps_; }
+  std::size_t size() const { return lamps_.size(); }
+
+  /// Light from lamp i at x for u in [0,1)^2, or nothing (behind, outside the cone). The value is before visibility.
+  std::optional<LightSample> sample(std::size_t i, const Vec3& x, Vec2 u) const;
+
+  /// Lamp of an emissive triangle, or -1.
+  int lamp_of(uint32_t triangle) const { return lamp_of_.empty() ? -1 : lamp_of_[triangle]; }
+  /// Emission of a triangle towards a viewer on its front or back; black from behind unless two-sided. cd/m2
+  Rgb emission(uint32_t triangle, Vec2 barycentric, bool back) const;
+  /// Density per steradian with which sample(lamp_of(triangle), x) picks the point that a ray of `distance` along
+  /// `direction` hits.
+  float pdf(uint32_t triangle, Vec2 barycentric, float distance, const Vec3& direction) const;
+
+  /// Sky lamps, and what a ray that leaves the scene sees of one.
+  const std::vector<uint32_t>& skies() const { return skies_; }
+  Rgb sky_radiance(std::size_t i, const Vec3& direction) const;
+  float sky_pdf(std::size_t i, const Vec3& direction) const;
+
+  /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric bound, never its
+  /// strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the cone). Dimensionless.
+  float importance(std::size_t i, const Vec3& x, const Vec3& n) const;
+
+ private:
+  const Scene* scene_;
+  const World* world_;
+  std::vector<Lamp> lamps_;
+  std::vector<int> lamp_of_;
+  std::vector<uint32_t> skies_;
+  float scene_radius_;
+};
+
+/// What a fader needs to know of a group's lamps (contract.md, "Colour").
+struct GroupFlux {
+  double lumens = 0;
+  Rgb color{1.0f};        ///< flux-weighted, luminance 1; white where there is no flux
+  double spread = 0;      ///< largest channel difference of any lamp's luminance-1 colour from `color`
+  bool infinite = false;  ///< sky or sun among them: no lumens
+  std::vector<std::string> lamps;
+};
+std::vector<GroupFlux> group_flux(const Scene& scene, const Lamps& lamps);
+
+}  // namespace sconce

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/lamp.h"
+#include "light/mesh_lamp.h"
+#include "light/punctual.h"
+#include "light/sky.h"
+
+namespace sconce {
+
+namespace {
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+Lamp make_lamp(const Light& light) {
+  return std::visit(Overload{[&](const PointLight& p) { return make_punctual(light, light.intensity, p.range, 0, 0, false); },
+                             [&](const SpotLight& s) {
+                               return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
+                             },
+                             [&](const SunLight&) { return make_sun(light); },
+                             [&](const SkyLight& s) { return make_sky(light, s); }},
+                    light.shape);
+}
+
+}  // namespace
+
+Lamps::Lamps(const Scene& scene, const World& world)
+    : scene_(&scene), world_(&world), scene_radius_(std::max(1e-6f, 0.5f * world.bounds.diagonal())) {
+  for (const Light& light : scene.lights) {
+    if (std::holds_alternative<SkyLight>(light.shape)) skies_.push_back(static_cast<uint32_t>(lamps_.size()));
+    lamps_.push_back(make_lamp(light));
+  }
+  for (uint32_t t = 0; t < world.size();) {
+    uint32_t end = t + 1;
+    while (end < world.size() && world.instances[end] == world.instances[t]) ++end;
+    if (scene[world.materials[t]].emits()) {
+      lamp_of_.resize(world.size(), -1);
+      std::fill(lamp_of_.begin() + t, lamp_of_.begin() + end, static_cast<int>(lamps_.size()));
+      lamps_.push_back(make_mesh_lamp(scene, world, world.instances[t], t, end - t));
+    }
+    t = end;
+  }
+}
+
+std::optional<LightSample> Lamps::sample(std::size_t i, const Vec3& x, Vec2 u) const {
+  return std::visit(
+      Overload{[&](const PunctualLamp& l) { return sconce::sample(l, x); },
+               [&](const SunLamp& l) { return sconce::sample(l); },
+               [&](const SkyLamp& l) { return sconce::sample(l, u); },
+               [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u); }},
+      lamps_[i].shape);
+}
+
+Rgb Lamps::emission(uint32_t triangle, Vec2 barycentric, bool back) const {
+  const int lamp = lamp_of(triangle);
+  if (lamp < 0 || (back && !std::get<MeshLamp>(lamps_[static_cast<std::size_t>(lamp)].shape).two_sided)) return {};
+  return emission_at(*scene_, *world_, triangle, barycentric);
+}
+
+float Lamps::pdf(uint32_t triangle, Vec2 barycentric, float distance, const Vec3& direction) const {
+  const auto& lamp = std::get<MeshLamp>(lamps_[static_cast<std::size_t>(lamp_of(triangle))].shape);
+  return sconce::pdf(lamp, *world_, triangle, barycentric, distance, direction);
+}
+
+Rgb Lamps::sky_radiance(std::size_t i, const Vec3& direction) const {
+  return radiance(std::get<SkyLamp>(lamps_[i].shape), direction);
+}
+
+float Lamps::sky_pdf(std::size_t i, const Vec3& direction) const {
+  return sconce::pdf(std::get<SkyLamp>(lamps_[i].shape), direction);
+}
+
+float Lamps::importance(std::size_t i, const Vec3& x, const Vec3& n) const {
+  constexpr float kLargest = 100;
+  const float r2 = scene_radius_ * scene_radius_;
+  return std::visit(
+      Overload{[&](const PunctualLamp& l) {
+                 const Vec3 to = l.position - x;
+                 const float d2 = glm::dot(to, to);
+                 if (glm::dot(to, n) <= 0 || (l.range > 0 && d2 >= l.range * l.range)) return 0.0f;
+                 if (l.cos_outer > -1 && -glm::dot(to, l.axis) <= l.cos_outer * std::sqrt(d2)) return 0.0f;
+                 return std::min(kLargest, r2 / std::max(d2, 1e-12f));
+               },
+               [&](const SunLamp& l) { return glm::dot(l.direction, n) > 0 ? 1.0f : 0.0f; },
+               [&](const SkyLamp&) { return 1.0f; },
+               [&](const MeshLamp& l) {
+                 const Vec3 to = l.center - x;
+                 if (glm::dot(to, n) <= -l.radius) return 0.0f;
+                 if (glm::dot(l.axis, x) < l.plane) return 0.0f;  // behind; axis 0: never, plane is 0
+                 return std::min(kLargest, r2 / std::max(glm::dot(to, to), l.radius * l.radius));
+               }},
+      lamps_[i].shape);
+}
+
+std::vector<GroupFlux> group_flux(const Scene& scene, const Lamps& lamps) {
+  std::vector<GroupFlux> groups(scene.groups.size());
+  std::vector<Rgb> sums(groups.size());
+  for (const Lamp& lamp : lamps.all()) {
+    if (!lamp.group.valid()) continue;
+    GroupFlux& group = groups[lamp.group.value];
+    group.lamps.push_back(lamp.name);
+    group.infinite |= lamp.infinite;
+    group.lumens += static_cast<double>(luminance(lamp.flux));
+    sums[lamp.group.value] += lamp.flux;
+  }
+  const auto unit = [](const Rgb& c) { return luminance(c) > 0 ? c / luminance(c) : Rgb(1.0f); };
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    groups[g].color = unit(sums[g]);
+    if (groups[g].infinite) groups[g].lumens = 0;
+  }
+  for (const Lamp& lamp : lamps.all()) {
+    if (!lamp.group.valid() || luminance(lamp.flux) <= 0) continue;
+    GroupFlux& group = groups[lamp.group.value];
+    const Rgb d = unit(lamp.flux) - group.color;
+    group.spread = std::max(group.spread, static_cast<double>(std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)})));
+  }
+  for (GroupFlux& group : groups)
+    if (group.spread < 1e-5) group.spread = 0;  // float rounding of equal lamps
+  return groups;
+}
+
+}  // namespace sconce

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/mesh_lamp.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr int kMaxCut = 64;           // pieces per edge of a textured emissive triangle, at most
+constexpr std::size_t kMaxPieces = 1 << 20;
+constexpr double kFloor = 0.1;        // share of the picking density that ignores the texture
+
+/// Texels of the emission texture along the longest edge of the triangle.
+double texels_along(const Scene& scene, const World& world, const Material& material, uint32_t t) {
+  const TextureUse& use = material.emission_texture;
+  if (!use.texture.valid()) return 0;
+  const Texture& texture = scene[use.texture];
+  const Vec2 size(texture.pixels.width, texture.pixels.height);
+  const Vec2 corner[3] = {use.transform(world.texcoord(t, Vec2(0, 0), use.texcoord)) * size,
+                          use.transform(world.texcoord(t, Vec2(1, 0), use.texcoord)) * size,
+                          use.transform(world.texcoord(t, Vec2(0, 1), use.texcoord)) * size};
+  double longest = 0;
+  for (int e = 0; e < 3; ++e)
+    longest = std::max(longest, static_cast<double>(glm::length(corner[(e + 1) % 3] - corner[e])));
+  return std::isfinite(longest) ? longest : 0;
+}
+
+}  // namespace
+
+Rgb emission_at(const Scene& scene, const World& world, uint32_t triangle, Vec2 barycentric) {
+  const Material& material = scene[world.materials[triangle]];
+  if (!material.emission_texture.texture.valid() && material.alpha_mode == Material::Alpha::opaque) return material.emission;
+  const Shade s = shade(scene, world, triangle, barycentric);
+  return material.alpha_mode == Material::Alpha::mask && s.alpha < material.alpha_cutoff ? Rgb() : s.emission;
+}
+
+Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instance, uint32_t first, uint32_t count) {
+  const Instance& node = scene[instance];
+  const Material& material = scene[world.materials[first]];
+  MeshLamp lamp;
+  lamp.first_triangle = first;
+  lamp.two_sided = material.double_sided;
+  lamp.cut.resize(count, 1);
+  double pieces = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double texels = texels_along(scene, world, material, first + i);
+    lamp.cut[i] = static_cast<uint16_t>(std::clamp(std::ceil(texels / 2), 1.0, static_cast<double>(kMaxCut)));
+    pieces += static_cast<double>(lamp.cut[i]) * lamp.cut[i];
+  }
+  if (pieces > static_cast<double>(kMaxPieces)) {
+    const double shrink = std::sqrt(static_cast<double>(kMaxPieces) / pieces);
+    for (uint16_t& c : lamp.cut) c = static_cast<uint16_t>(std::max(1.0, c * shrink));
+  }
+
+  std::vector<double> areas, relative;
+  double flux[3] = {0, 0, 0};
+  Bounds bounds;
+  const float strength = std::max(1e-30f, luminance(material.emission));
+  double mean_relative = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t t = first + i;
+    const int n = lamp.cut[i];
+    lamp.first_piece.push_back(static_cast<uint32_t>(lamp.pieces.size()));
+    const double area = static_cast<double>(world.area(t)) / n / n;
+    for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) bounds.add(world.position(t, corner));
+    const float step = 1.0f / static_cast<float>(n);
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n - y; ++x)
+        for (int upper = 0; upper < (x + y < n - 1 ? 2 : 1); ++upper) {
+          const Vec2 b(static_cast<float>(x) * step, static_cast<float>(y) * step);
+          MeshLamp::Piece piece{t, b, b + Vec2(step, 0), b + Vec2(0, step), 0};
+          if (upper == 1) piece.b0 = b + Vec2(step, step);
+          Rgb mean;
+          for (const Vec2 w : {Vec2(1 / 3.0f), Vec2(0.6f, 0.2f), Vec2(0.2f, 0.6f), Vec2(0.2f)})
+            mean += 0.25f * emission_at(scene, world, t, piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
+          lamp.pieces.push_back(piece);
+          areas.push_back(area);
+          relative.push_back(static_cast<double>(luminance(mean) / strength));
+          lamp.area += area;
+          mean_relative += area * relative.back();
+          const double sides = lamp.two_sided ? 2 : 1;
+          flux[0] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.r);
+          flux[1] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.g);
+          flux[2] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.b);
+        }
+  }
+  mean_relative /= lamp.area;
+  std::vector<double> weights(areas.size());
+  double total = 0;
+  for (std::size_t p = 0; p < areas.size(); ++p) {
+    weights[p] = areas[p] * ((1 - kFloor) * relative[p] + kFloor * mean_relative);
+    if (mean_relative <= 0) weights[p] = areas[p];
+    total += weights[p];
+  }
+  lamp.table = AliasTable(weights);
+  for (std::size_t p = 0; p < areas.size(); ++p) lamp.pieces[p].density = static_cast<float>(weights[p] / total / areas[p]);
+
+  lamp.center = bounds.center();
+  lamp.radius = 0.5f * bounds.diagonal();
+  const Vec3 normal = world.face_normals[first];
+  bool flat = !lamp.two_sided;
+  float low = 1e30f;
+  for (uint32_t t = first; t < first + count; ++t) {
+    flat = flat && glm::dot(world.face_normals[t], normal) > 0.99999f;
+    for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)})
+      low = std::min(low, glm::dot(normal, world.position(t, corner)));
+  }
+  if (flat) {
+    lamp.axis = normal;
+    lamp.plane = low;
+  }
+  return {node.name, node.group, std::move(lamp),
+          Rgb(static_cast<float>(flux[0]), static_cast<float>(flux[1]), static_cast<float>(flux[2])), false};
+}
+
+std::optional<LightSample> sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u) {
+  const MeshLamp::Piece& piece = lamp.pieces[lamp.table.sample(u.x)];
+  float b1 = u.x, b2 = u.y;
+  if (b2 > b1) {
+    b1 *= 0.5f;
+    b2 -= b1;
+  } else {
+    b2 *= 0.5f;
+    b1 -= b2;
+  }
+  const Vec2 b = piece.b0 + b1 * (piece.b1 - piece.b0) + b2 * (piece.b2 - piece.b0);
+  const Vec3 to = world.position(piece.triangle, b) - x;
+  const float d2 = glm::dot(to, to);
+  if (!(d2 > 1e-14f)) return std::nullopt;
+  const float d = std::sqrt(d2);
+  const Vec3 direction = to / d;
+  float cosine = -glm::dot(direction, world.face_normals[piece.triangle]);
+  if (lamp.two_sided) cosine = std::abs(cosine);
+  if (!(cosine > 1e-7f)) return std::nullopt;
+  return LightSample{direction, d, emission_at(scene, world, piece.triangle, b), piece.density * d2 / cosine, false};
+}
+
+float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,
+          const Vec3& direction) {
+  const uint32_t i = triangle - lamp.first_triangle;
+  const int n = lamp.cut[i];
+  std::size_t piece = lamp.first_piece[i];
+  if (n > 1) {
+    const float fx = barycentric.x * static_cast<float>(n), fy = barycentric.y * static_cast<float>(n);
+    const int y = std::clamp(static_cast<int>(fy), 0, n - 1);
+    const int x = std::clamp(static_cast<int>(fx), 0, n - 1 - y);
+    const bool upper = x + y < n - 1 && (fx - static_cast<float>(x)) + (fy - static_cast<float>(y)) > 1;
+    // Row r holds 2 (n - 1 - r) + 1 pieces.
+    piece += static_cast<std::size_t>(y * (2 * n - y) + 2 * x + (upper ? 1 : 0));
+  }
+  const float cosine = std::abs(glm::dot(direction, world.face_normals[triangle]));
+  return cosine > 1e-7f ? lamp.pieces[piece].density * distance * distance / cosine : 0.0f;
+}
+
+}  // namespace sconce
