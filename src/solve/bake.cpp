@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/bake.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+
+#include "core/parallel.h"
+
+namespace sconce {
+
+std::string made_with(const BakeParams& params) {
+  return fmt::format("samples={} noise={:a}", (params.samples + kBatches - 1) / kBatches * kBatches, params.noise);
+}
+
+void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers, Shard shard,
+                BakeState& state, const Progress& progress) {
+  const std::string with = made_with(params);
+  std::vector<std::size_t> todo;
+  std::size_t mine = 0;
+  for (std::size_t tile = shard.index; tile < receivers.tiles(); tile += shard.count) {
+    ++mine;
+    if (!state.has(tile) || state.made_with(tile) != with) todo.push_back(tile);
+  }
+  const std::size_t groups = state.header().groups;
+  std::atomic<uint64_t> done = mine - todo.size();
+  progress.at("bake", done, mine);
+  parallel_for(todo.size(), 1, [&](std::size_t k) {
+    progress.check();
+    const std::size_t tile = todo[k], first = tile * TexelReceivers::kTile, count = state.receivers_of(tile);
+    std::vector<GroupValue> values(groups * count), one(groups);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % 16 == 0) progress.check();
+      solver.solve(receivers.footprint(first + i), one);
+      for (std::size_t g = 0; g < groups; ++g) values[g * count + i] = one[g];
+    }
+    state.append(tile, with, values);
+    progress.at("bake", ++done, mine);
+  });
+}
+
+std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakeParams& params) {
+  std::vector<std::size_t> missing;
+  const std::string with = made_with(params);
+  for (std::size_t tile = 0; tile < states.front().tiles(); ++tile) {
+    bool found = false;
+    for (const BakeState& state : states) found |= state.has(tile) && state.made_with(tile) == with;
+    if (!found) missing.push_back(tile);
+  }
+  return missing;
+}
+
+Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas, const TexelReceivers& receivers,
+                     std::span<const float> areas) {
+  Layer layer;
+  const std::size_t page_texels = static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
+  std::vector<std::vector<uint8_t>> valid(static_cast<std::size_t>(atlas.pages), std::vector<uint8_t>(page_texels, 0));
+  for (int p = 0; p < atlas.pages; ++p) {
+    layer.pages.push_back(Image::rgb(atlas.width, atlas.height));
+    layer.noise.push_back(Image(atlas.width, atlas.height, {"noise"}));
+  }
+  double area_sum = 0, lux_sum = 0, squares = 0;
+  for (std::size_t tile = 0; tile < receivers.tiles(); ++tile) {
+    const BakeState* source = nullptr;
+    for (const BakeState& state : states)
+      if (state.has(tile)) source = &state;
+    const std::vector<GroupValue> values = source->read(tile, group);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t receiver = tile * TexelReceivers::kTile + i;
+      const std::size_t page = receivers.texel(receiver) / page_texels, at = receivers.texel(receiver) % page_texels;
+      const Rgb& e = values[i].illuminance;
+      float* pixel = &layer.pages[page].data[3 * at];
+      pixel[0] = e.r, pixel[1] = e.g, pixel[2] = e.b;
+      valid[page][at] = 1;
+      const float lux = luminance(e);
+      layer.noise[page].data[at] = lux > 0 ? values[i].error / lux : 0;
+      const double area = static_cast<double>(areas[receiver]);
+      area_sum += area;
+      lux_sum += area * static_cast<double>(lux);
+      squares += area * static_cast<double>(values[i].error) * static_cast<double>(values[i].error);
+    }
+  }
+  layer.mean_lux = area_sum > 0 ? lux_sum / area_sum : 0;
+  layer.relative_noise = layer.mean_lux > 0 ? std::sqrt(squares / area_sum) / layer.mean_lux : 0;
+  parallel_for(static_cast<std::size_t>(atlas.pages), 1, [&](std::size_t p) {
+    fill_gaps(atlas, static_cast<int>(p), valid[p], layer.pages[p]);
+  });
+  return layer;
+}
+
+}  // namespace sconce

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// One path of the path tracer. A template over the rays, so that a benchmark can record them.
+#pragma once
+
+#include <span>
+
+#include "core/sobol.h"
+#include "solve/pick.h"
+#include "solve/solver.h"
+
+namespace sconce {
+
+/// Cosine-distributed direction about +z (Shirley & Chiu's concentric map); density cos/pi.
+inline Vec3 cosine_direction(Vec2 u) {
+  const float a = 2 * u.x - 1, b = 2 * u.y - 1;
+  if (a == 0 && b == 0) return Vec3(0, 0, 1);
+  float r, phi;
+  if (std::abs(a) > std::abs(b)) {
+    r = a;
+    phi = kPi / 4 * (b / a);
+  } else {
+    r = b;
+    phi = kPi / 2 - kPi / 4 * (a / b);
+  }
+  const float x = r * std::cos(phi), y = r * std::sin(phi);
+  return {x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y))};
+}
+
+/// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met by the
+/// path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
+/// @tparam Rays  has closest(Ray) and occluded(Ray)
+template <class Rays>
+class PathKernel {
+ public:
+  PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces)
+      : scene_(scene), world_(world), rays_(rays), lamps_(lamps), picker_(lamps), bounces_(bounces),
+        budget_(shadow_ray_budget(lamps.size())), slots_(static_cast<uint32_t>(lamps.size()) + 2) {
+    for (const Lamp& lamp : lamps.all())
+      area_lights_ |= std::holds_alternative<MeshLamp>(lamp.shape) || std::holds_alternative<SkyLamp>(lamp.shape);
+  }
+
+  /// Adds one sample of E_g, lux, to sums[3 * group + channel].
+  void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
+    SurfacePoint at = receiver.sample(sobol_pair(index, kFootprintPair, stream));
+    Rgb throughput{1.0f};
+    for (uint32_t depth = 0;; ++depth) {
+      const auto pair = [&](uint32_t slot) { return sobol_pair(index, depth * slots_ + slot, stream); };
+      const Vec2 choice = pair(1);
+      picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
+      picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
+        next_event(at, lamp, expected, pair(2 + lamp), throughput, sums);
+      });
+      const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
+      if (last && !area_lights_) return;
+
+      const Vec3 local = cosine_direction(pair(0));
+      const Vec3 direction = glm::normalize(Frame(at.shading_normal).to_world(local));
+      const float cosine = glm::dot(direction, at.shading_normal);
+      if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
+      const Hit hit = rays_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
+      if (!hit) {
+        for (const uint32_t sky : lamps_.skies()) {
+          const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
+          add(sums, sky, throughput * lamps_.sky_radiance(sky, direction) * (cosine / (other + cosine * kInvPi)));
+        }
+        return;
+      }
+      const int lamp = lamps_.lamp_of(hit.triangle);
+      if (lamp >= 0) {
+        const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
+        if (!emission.is_black()) {
+          const float other = picker_.expected(static_cast<std::size_t>(lamp)) *
+                              lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction);
+          add(sums, static_cast<uint32_t>(lamp), throughput * emission * (cosine / (other + cosine * kInvPi)));
+        }
+      }
+      if (last) return;
+      const Material& material = scene_[world_.materials[hit.triangle]];
+      if (hit.back && !material.double_sided) return;
+      throughput *= shade(scene_, world_, hit.triangle, hit.barycentric).base_color;
+      if (depth >= 1) {
+        const float survival = std::min(1.0f, throughput.max());
+        if (!(pair(1).y < survival)) return;
+        throughput *= 1 / survival;
+      }
+      if (throughput.is_black()) return;
+      at.position = world_.position(hit.triangle, hit.barycentric);
+      at.geometric_normal = world_.face_normals[hit.triangle];
+      at.shading_normal = world_.normal(hit.triangle, hit.barycentric);
+      if (hit.back) {
+        at.geometric_normal = -at.geometric_normal;
+        at.shading_normal = -at.shading_normal;
+      }
+    }
+  }
+
+ private:
+  static constexpr uint32_t kFootprintPair = 0xffffff00u;
+
+  void next_event(const SurfacePoint& at, uint32_t lamp, float expected, Vec2 u, const Rgb& throughput,
+                  std::span<double> sums) {
+    const auto light = lamps_.sample(lamp, at.position, u);
+    if (!light || light->radiance.is_black()) return;
+    const float cosine = glm::dot(light->direction, at.shading_normal);
+    if (!(cosine > 0) || !(glm::dot(light->direction, at.geometric_normal) > 0)) return;
+    const Vec3 origin = offset_origin(at.position, at.geometric_normal, light->direction);
+    // The lamp's own surface must not count as an occluder.
+    const float end = light->delta ? light->distance : light->distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
+    if (end > 0 && rays_.occluded({origin, light->direction, end})) return;
+    const float density = light->delta ? expected : expected * light->pdf + cosine * kInvPi;
+    add(sums, lamp, throughput * light->radiance * (cosine / density));
+  }
+
+  void add(std::span<double> sums, uint32_t lamp, const Rgb& value) {
+    const std::size_t g = 3 * static_cast<std::size_t>(lamps_.all()[lamp].group.value);
+    sums[g] += static_cast<double>(value.r);
+    sums[g + 1] += static_cast<double>(value.g);
+    sums[g + 2] += static_cast<double>(value.b);
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const Rays& rays_;
+  const Lamps& lamps_;
+  LampPicker picker_;
+  int bounces_;
+  RayBudget budget_;
+  uint32_t slots_;
+  bool area_lights_ = false;
+};
+
+/// All samples of one receiver, in batches; shared by the solver and the benchmark that replays its rays.
+/// @param out  one per group
+template <class Rays>
+void solve_receiver(PathKernel<Rays>& kernel, const Footprint& receiver, const BakeParams& params,
+                    std::span<GroupValue> out) {
+  const std::size_t groups = out.size();
+  const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));
+  std::vector<double> sums(kBatches * 3 * groups, 0.0);
+  std::vector<double> luma(kBatches * (groups + 1));
+  const auto batch = [&](int b) { return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * groups, 3 * groups); };
+  uint32_t done = 0;
+  // Rounds double, so that every stop leaves a whole power of two per batch.
+  for (uint32_t round = params.noise > 0 ? std::min(most, 2u) : most;; round = std::min(most, 2 * round)) {
+    for (int b = 0; b < kBatches; ++b) {
+      const uint32_t stream = mix32(mix32(params.seed, static_cast<uint32_t>(b)), receiver.id);
+      for (uint32_t i = done; i < round; ++i) kernel.sample(receiver, stream, i, batch(b));
+    }
+    done = round;
+    double mean_total = 0, squares_total = 0;
+    for (std::size_t g = 0; g < groups; ++g) {
+      double rgb[3] = {0, 0, 0}, squares = 0;
+      for (int b = 0; b < kBatches; ++b) {
+        const auto s = batch(b);
+        double& l = luma[static_cast<std::size_t>(b) * (groups + 1) + g];
+        for (std::size_t c = 0; c < 3; ++c) rgb[c] += s[3 * g + c];
+        l = (0.2126 * s[3 * g] + 0.7152 * s[3 * g + 1] + 0.0722 * s[3 * g + 2]) / done;
+      }
+      const double n = static_cast<double>(done) * kBatches;
+      const double mean = (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]) / n;
+      for (int b = 0; b < kBatches; ++b) {
+        const double d = luma[static_cast<std::size_t>(b) * (groups + 1) + g] - mean;
+        squares += d * d;
+      }
+      out[g].illuminance = Rgb(static_cast<float>(rgb[0] / n), static_cast<float>(rgb[1] / n), static_cast<float>(rgb[2] / n));
+      out[g].error = static_cast<float>(std::sqrt(squares / (kBatches * (kBatches - 1))));
+      mean_total += mean;
+    }
+    for (int b = 0; b < kBatches; ++b) {
+      double l = -mean_total;
+      for (std::size_t g = 0; g < groups; ++g) l += luma[static_cast<std::size_t>(b) * (groups + 1) + g];
+      squares_total += l * l;
+    }
+    const double error_total = std::sqrt(squares_total / (kBatches * (kBatches - 1)));
+    if (done >= most || error_total <= params.noise * mean_total) return;
+  }
+}
+
+}  // namespace sconce

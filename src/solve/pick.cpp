@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/pick.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr float kUniform = 0.75f;              // share of the density that ignores distance
+constexpr std::size_t kMostExamined = 512;     // beyond so many lamps all count as equally important
+
+}  // namespace
+
+void LampPicker::aim(const Vec3& x, const Vec3& n, int rays) {
+  candidates_.clear();
+  const std::size_t count = lamps_->size();
+  float sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float f = count <= kMostExamined ? lamps_->importance(i, x, n) : 1.0f;
+    expected_[i] = f;
+    if (f > 0) {
+      candidates_.push_back(static_cast<uint32_t>(i));
+      sum += f;
+    }
+  }
+  const float k = static_cast<float>(rays), m = static_cast<float>(candidates_.size());
+  if (m <= k) {
+    for (const uint32_t i : candidates_) expected_[i] = 1;
+    return;
+  }
+  for (const uint32_t i : candidates_)
+    expected_[i] = std::min(1.0f, k * (kUniform / m + (1 - kUniform) * expected_[i] / sum));
+}
+
+RayBudget shadow_ray_budget(std::size_t lamps) {
+  const int n = static_cast<int>(std::min<std::size_t>(lamps, 64));
+  return {std::clamp((n + 1) / 2, std::min(n, 4), 16), std::clamp((n + 2) / 3, 1, 8)};
+}
+
+}  // namespace sconce

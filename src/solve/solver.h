@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much light arrives at receivers. Adding a solver is one file and one row of table.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/progress.h"
+#include "core/receiver.h"
+#include "light/lamp.h"
+#include "trace/tracer.h"
+
+namespace sconce {
+
+struct BakeParams {
+  int samples = 256;   ///< paths per receiver, rounded up to a multiple of kBatches
+  int bounces = -1;    ///< reflections before the receiver; 0 = direct only, -1 = unbounded
+  uint32_t seed = 1;
+  double noise = 0;    ///< stop a receiver early when its relative standard error falls below; 0 = never
+};
+
+/// Independently scrambled batches of samples: their spread is the noise.
+inline constexpr int kBatches = 8;
+
+/// What a solver sees. All outlive it.
+struct SolveContext {
+  const Scene& scene;
+  const World& world;
+  const Tracer& tracer;
+  const Lamps& lamps;
+};
+
+/// One receiver's answer for one group.
+struct GroupValue {
+  Rgb illuminance;  ///< lux per channel: E_g of contract.md
+  float error = 0;  ///< standard error of its luminance, lux
+};
+
+/// A solver made ready for a scene.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// All groups of one receiver at once. Thread-safe; a pure function of the footprint (its id names the random numbers).
+  /// @param out  one per scene group
+  virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
+};
+
+struct SolverRow {
+  std::string_view name, doc;
+  std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params, const Progress& progress);
+};
+
+/// path; in this order.
+std::span<const SolverRow> solvers();
+/// @throws UsageError naming the choices
+const SolverRow& find_solver(std::string_view name);
+
+}  // namespace sconce

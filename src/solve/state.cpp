@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/state.h"
+
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr char kMagic[8] = {'s', 'c', 'o', 'n', 'c', 'e', 'b', '1'};
+constexpr uint32_t kRecord = 0x454c4954;  // "TILE"
+
+struct RecordHead {
+  uint32_t magic, tile, made_with_size, values;
+  uint64_t checksum;  ///< XXH3 of made_with and values
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
+  throw Error(path.string(), std::string(what) + ": " + std::strerror(errno));
+}
+
+void put(std::string& out, const std::string& s) {
+  const auto size = static_cast<uint64_t>(s.size());
+  out.append(reinterpret_cast<const char*>(&size), sizeof size);
+  out += s;
+}
+
+template <class T>
+bool get(std::FILE* file, T& value) {
+  return std::fread(&value, sizeof value, 1, file) == 1;
+}
+
+bool get(std::FILE* file, std::string& s) {
+  uint64_t size = 0;
+  if (!get(file, size) || size > (1u << 26)) return false;
+  s.resize(size);
+  return size == 0 || std::fread(s.data(), size, 1, file) == 1;
+}
+
+uint64_t checksum(const std::string& made_with, std::span<const GroupValue> values) {
+  return XXH3_64bits_withSeed(values.data(), values.size_bytes(), XXH3_64bits(made_with.data(), made_with.size()));
+}
+
+}  // namespace
+
+BakeState BakeState::create(const std::filesystem::path& path, const BakeHeader& header) {
+  BakeState state;
+  state.path_ = path;
+  state.header_ = header;
+  state.file_ = std::fopen(path.c_str(), "w+b");
+  if (state.file_ == nullptr) fail(path, "cannot be written");
+  std::string head(kMagic, sizeof kMagic);
+  put(head, header.hash);
+  put(head, header.isa);
+  put(head, header.job);
+  head.append(reinterpret_cast<const char*>(&header.groups), sizeof header.groups);
+  head.append(reinterpret_cast<const char*>(&header.receivers), sizeof header.receivers);
+  head.append(reinterpret_cast<const char*>(&header.tile_size), sizeof header.tile_size);
+  if (std::fwrite(head.data(), head.size(), 1, state.file_) != 1 || std::fflush(state.file_) != 0)
+    fail(path, "cannot be written");
+  const std::size_t tiles = (header.receivers + header.tile_size - 1) / header.tile_size;
+  state.offsets_.resize(tiles);
+  state.made_with_.resize(tiles);
+  return state;
+}
+
+BakeState BakeState::open(const std::filesystem::path& path) {
+  BakeState state;
+  state.path_ = path;
+  state.file_ = std::fopen(path.c_str(), "r+b");
+  if (state.file_ == nullptr) fail(path, "cannot be opened");
+  char magic[sizeof kMagic];
+  BakeHeader& h = state.header_;
+  if (!get(state.file_, magic) || std::memcmp(magic, kMagic, sizeof kMagic) != 0)
+    throw Error(path.string(), "is not the state of a bake by this version");
+  if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) || !get(state.file_, h.groups) ||
+      !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) || h.tile_size == 0 || h.receivers > (1ull << 34))
+    throw Error(path.string(), "the header is damaged");
+  const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
+  state.offsets_.resize(tiles);
+  state.made_with_.resize(tiles);
+  state.scan();
+  return state;
+}
+
+void BakeState::scan() {
+  std::vector<GroupValue> values;
+  for (;;) {
+    const long start = std::ftell(file_);
+    RecordHead head;
+    std::string made_with;
+    const bool whole = [&] {
+      if (!get(file_, head) || head.magic != kRecord || head.tile >= tiles() || head.made_with_size > 4096 ||
+          head.values != receivers_of(head.tile) * header_.groups)
+        return false;
+      made_with.resize(head.made_with_size);
+      values.resize(head.values);
+      return (made_with.empty() || std::fread(made_with.data(), made_with.size(), 1, file_) == 1) &&
+             std::fread(values.data(), sizeof(GroupValue), values.size(), file_) == values.size() &&
+             checksum(made_with, values) == head.checksum;
+    }();
+    if (!whole) {
+      // Whatever was being written when the process died: cut it off, so that appends follow a whole record.
+      if (::ftruncate(fileno(file_), start) != 0) fail(path_, "cannot be repaired");
+      std::fseek(file_, start, SEEK_SET);
+      return;
+    }
+    offsets_[head.tile] = static_cast<uint64_t>(start) + sizeof head + made_with.size();
+    made_with_[head.tile] = made_with;
+  }
+}
+
+BakeState::BakeState(BakeState&& other) noexcept
+    : path_(std::move(other.path_)), header_(std::move(other.header_)), file_(std::exchange(other.file_, nullptr)),
+      offsets_(std::move(other.offsets_)), made_with_(std::move(other.made_with_)) {}
+
+BakeState::~BakeState() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+std::size_t BakeState::receivers_of(std::size_t tile) const {
+  const uint64_t first = static_cast<uint64_t>(tile) * header_.tile_size;
+  return std::min<uint64_t>(header_.tile_size, header_.receivers - first);
+}
+
+void BakeState::append(std::size_t tile, const std::string& made_with, std::span<const GroupValue> values) {
+  const RecordHead head{kRecord, static_cast<uint32_t>(tile), static_cast<uint32_t>(made_with.size()),
+                        static_cast<uint32_t>(values.size()), checksum(made_with, values)};
+  const std::lock_guard lock(mutex_);
+  std::fseek(file_, 0, SEEK_END);
+  const long start = std::ftell(file_);
+  const bool ok = std::fwrite(&head, sizeof head, 1, file_) == 1 &&
+                  (made_with.empty() || std::fwrite(made_with.data(), made_with.size(), 1, file_) == 1) &&
+                  std::fwrite(values.data(), sizeof(GroupValue), values.size(), file_) == values.size() &&
+                  std::fflush(file_) == 0;
+  if (!ok) fail(path_, "cannot be written");
+  offsets_[tile] = static_cast<uint64_t>(start) + sizeof head + made_with.size();
+  made_with_[tile] = made_with;
+}
+
+std::vector<GroupValue> BakeState::read(std::size_t tile, uint32_t group) const {
+  const std::size_t count = receivers_of(tile);
+  std::vector<GroupValue> values(count);
+  const std::lock_guard lock(mutex_);
+  std::fseek(file_, static_cast<long>(offsets_[tile] + group * count * sizeof(GroupValue)), SEEK_SET);
+  if (offsets_[tile] == 0 || std::fread(values.data(), sizeof(GroupValue), count, file_) != count)
+    throw Error(path_.string(), "cannot be read");
+  return values;
+}
+
+}  // namespace sconce

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+
+#include "solve/path.h"
+
+namespace sconce {
+
+std::span<const SolverRow> solvers() {
+  static constexpr std::array kRows{
+      SolverRow{"path", "unbiased path tracing with next-event estimation, all groups in one pass", &make_path_solver},
+  };
+  return kRows;
+}
+
+const SolverRow& find_solver(std::string_view name) {
+  std::string names;
+  for (const SolverRow& row : solvers()) {
+    if (row.name == name) return row;
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  throw UsageError("--solver", "unknown solver '" + std::string(name) + "'", names);
+}
+
+}  // namespace sconce
