@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tone/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sconce {
+
+namespace {
+
+constexpr double kDarkest = 1e-4;  // cd/m2; the metering's own offset
+
+Exposure scaled(double scale, double maximum) {
+  Exposure e;
+  e.scale = static_cast<float>(std::clamp(scale, 1e-30, 1e30));
+  e.params.maximum = static_cast<float>(std::clamp(scale * std::max(maximum, kDarkest), 1e-30, 1e30));
+  return e;
+}
+
+}  // namespace
+
+Exposure auto_exposure(double log_mean, double maximum, double stops) {
+  return scaled(double{kMiddleGrey} * std::exp2(stops) / std::max(log_mean, kDarkest), maximum);
+}
+
+Exposure ev100_exposure(double ev100, double maximum) {
+  return scaled(1.0 / (1.2 * std::exp2(ev100)), maximum);
+}
+
+Exposure unit_exposure(double maximum) {
+  return scaled(1.0, maximum);
+}
+
+}  // namespace sconce
