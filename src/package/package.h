@@ -19,21 +19,22 @@ inline constexpr int kPackageVersion = 1;
 /// What a fader needs to know of its group.
 struct GroupInfo {
   std::string name;
-  double lumens = 0;         ///< luminous flux at unit weight; 0 for sky and sun
-  Rgb color{1.0f};           ///< flux-weighted colour, luminance 1 (contract.md, "Colour")
-  double color_spread = 0;   ///< largest relative channel difference of a lamp's colour from `color`; 0 = one colour
-  bool infinite = false;     ///< sky or sun: has no lumens
-  double mean_lux = 0;       ///< area-weighted mean of the layer's luminance
-  double noise = 0;          ///< relative standard error of the layer, area-weighted rms over texels
+  double lumens = 0;  ///< luminous flux at unit weight; 0 for sky and sun
+  Rgb color{1.0f};    ///< flux-weighted colour, luminance 1 (contract.md, "Colour")
+  double color_spread =
+      0;  ///< largest relative channel difference of a lamp's colour from `color`; 0 = one colour
+  bool infinite = false;  ///< sky or sun: has no lumens
+  double mean_lux = 0;    ///< area-weighted mean of the layer's luminance
+  double noise = 0;       ///< relative standard error of the layer, area-weighted rms over texels
   std::vector<std::string> lamps;
 };
 
 struct LayerInfo {
   uint32_t group = 0;
   int page = 0;
-  std::string encoding;      ///< row of encode/table
-  std::string file;          ///< base name below layers/
-  std::string hash;          ///< of the file's bytes
+  std::string encoding;  ///< row of encode/table
+  std::string file;      ///< base name below layers/
+  std::string hash;      ///< of the file's bytes
   uint64_t bytes = 0;
 };
 
@@ -44,29 +45,30 @@ struct Provenance {
 
 struct Manifest {
   int version = kPackageVersion;
-  std::string generator;                       ///< "sconce 0.1.0"
+  std::string generator;  ///< "sconce 0.1.0"
   std::string scene_name;
-  std::string scene_hash;                      ///< of everything a bake of this scene depends on
+  std::string scene_hash;  ///< of everything a bake of this scene depends on
   int width = 0, height = 0, pages = 0;
-  double density = 0;                          ///< texels per metre asked for
-  uint32_t lightmap_set = 0;                   ///< TEXCOORD_n of scene.glb that holds lightmap coordinates
-  std::vector<int> instance_pages;             ///< per mesh node of scene.glb; -1 = none
-  std::vector<int> instance_twins;             ///< per mesh node: node of its twin (same triangles from behind), or -1
+  double density = 0;               ///< texels per metre asked for
+  uint32_t lightmap_set = 0;        ///< TEXCOORD_n of scene.glb that holds lightmap coordinates
+  std::vector<int> instance_pages;  ///< per mesh node of scene.glb; -1 = none
+  std::vector<int> instance_twins;  ///< per mesh node: node of its twin (same triangles from behind), or -1
   std::vector<GroupInfo> groups;
   std::vector<LayerInfo> layers;
-  std::map<std::string, std::string> hashes;   ///< other files (scene.glb, receivers.N.exr, noise.N.exr) -> hash
-  std::map<std::string, Provenance> options;   ///< every option of the bake
-  std::map<std::string, std::string> facts;    ///< solver, samples, isa, seed, statistics: free text
+  std::map<std::string, std::string>
+      hashes;  ///< other files (scene.glb, receivers.N.exr, noise.N.exr) -> hash
+  std::map<std::string, Provenance> options;  ///< every option of the bake
+  std::map<std::string, std::string> facts;   ///< solver, samples, isa, seed, statistics: free text
 };
 
 /// What a writer hands over. Images are per page: layers[group][page], RGB lux.
 struct PackageContents {
-  Manifest manifest;                            ///< layers, hashes are filled in by the writer
-  Scene scene;                                  ///< BakedScene::scene
+  Manifest manifest;  ///< layers, hashes are filled in by the writer
+  Scene scene;        ///< BakedScene::scene
   std::vector<std::vector<Image>> layers;
-  std::vector<std::string> encodings;           ///< per group
-  std::vector<Image> receivers;                 ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
-  std::vector<Image> noise;                     ///< per page: one channel per group, relative standard error
+  std::vector<std::string> encodings;  ///< per group
+  std::vector<Image> receivers;  ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
+  std::vector<Image> noise;      ///< per page: one channel per group, relative standard error
 };
 
 /// Writes beside and renames. @throws Error (unwritable, disk full); nothing half-written stays
@@ -75,7 +77,8 @@ void write_package(const std::filesystem::path& path, PackageContents contents);
 /// A package that was read and validated: version, files present, sizes; hashes when asked.
 class Package {
  public:
-  /// @throws Error: no package, other version (both named), missing or damaged file (named); NotMyFormat when not a package
+  /// @throws Error: no package, other version (both named), missing or damaged file (named); NotMyFormat when
+  /// not a package
   static Package open(const std::filesystem::path& path, bool check_hashes = true);
 
   const Manifest& manifest() const { return manifest_; }

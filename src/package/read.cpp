@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "encode/encoding.h"
+#include "image/io.h"
+#include "package/glb.h"
+#include "package/manifest.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+
+namespace {
+
+/// A file that the manifest lists.
+struct Listed {
+  fs::path path;
+  std::string hash;
+  std::optional<uint64_t> bytes;
+};
+
+std::vector<Listed> listed_files(const fs::path& folder, const Manifest& m) {
+  std::vector<Listed> files;
+  for (const LayerInfo& layer : m.layers)
+    files.push_back({folder / "layers" / layer.file, layer.hash, layer.bytes});
+  for (const auto& [name, hash] : m.hashes) files.push_back({folder / name, hash, std::nullopt});
+  return files;
+}
+
+void check_presence(const Listed& file) {
+  std::error_code ec;
+  if (!fs::is_regular_file(file.path, ec)) throw Error(file.path.string(), "is missing from the package");
+  const uint64_t bytes = fs::file_size(file.path, ec);
+  if (file.bytes && bytes != *file.bytes)
+    throw Error(file.path.string(), "is damaged: it has " + std::to_string(bytes) +
+                                        " bytes, the manifest says " + std::to_string(*file.bytes));
+}
+
+void check_listed(const Manifest& m, const std::string& where) {
+  std::vector<std::string> needed{"scene.glb"};
+  for (int page = 0; page < m.pages; ++page) needed.push_back(page_file("receivers", page));
+  for (const std::string& name : needed)
+    if (m.hashes.count(name) == 0) throw Error(where, "files." + name + " is missing");
+  for (const LayerInfo& layer : m.layers) {
+    const auto known = encodings();
+    if (std::none_of(known.begin(), known.end(), [&](const Encoding& e) { return e.name == layer.encoding; }))
+      throw Error(where, "layer " + layer.file + " has the unknown encoding '" + layer.encoding + "'");
+  }
+}
+
+// The named channels, in this order.
+Image pick(const Image& image, const std::vector<std::string>& names, const Manifest& m,
+           const fs::path& file) {
+  if (image.width != m.width || image.height != m.height)
+    throw Error(file.string(), "has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                                   " texels, the manifest says " + std::to_string(m.width) + " x " +
+                                   std::to_string(m.height));
+  std::vector<std::size_t> from;
+  for (const std::string& name : names) {
+    const int channel = image.channel(name);
+    if (channel < 0) throw Error(file.string(), "lacks the channel " + name);
+    from.push_back(static_cast<std::size_t>(channel));
+  }
+  Image out(image.width, image.height, names);
+  out.text = image.text;
+  for (std::size_t i = 0; i < image.pixels(); ++i)
+    for (std::size_t c = 0; c < names.size(); ++c)
+      out.data[i * names.size() + c] = image.data[i * image.stride() + from[c]];
+  return out;
+}
+
+Id<LightGroup> find_group(const Manifest& m, const std::string& name) {
+  for (std::size_t g = 0; g < m.groups.size(); ++g)
+    if (m.groups[g].name == name) return Id<LightGroup>(g);
+  return {};
+}
+
+// What glTF cannot know: that the tables of the manifest fit this geometry.
+void check_scene(const Scene& scene, const Manifest& m, const std::string& where) {
+  if (scene.instances.size() != m.instance_pages.size())
+    throw Error(where, "has " + std::to_string(scene.instances.size()) + " mesh nodes, the manifest has " +
+                           std::to_string(m.instance_pages.size()));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene[instance.mesh];
+    if (m.instance_pages[i] >= 0 && mesh.texcoords.size() <= m.lightmap_set)
+      throw Error(where, "mesh '" + mesh.name + "' lacks the lightmap coordinates TEXCOORD_" +
+                             std::to_string(m.lightmap_set));
+    if (m.instance_twins[i] >= 0) {
+      const Instance& twin = scene.instances[static_cast<std::size_t>(m.instance_twins[i])];
+      if (scene[twin.mesh].triangles.size() != mesh.triangles.size())
+        throw Error(where, "mesh '" + mesh.name + "' and its twin differ in triangles");
+    }
+    if (scene.emits(instance) && !instance.group_name.empty() && !instance.group)
+      throw Error(where, "'" + instance.name + "' is in the light group '" + instance.group_name +
+                             "', which the manifest lacks");
+  }
+}
+
+}  // namespace
+
+Package Package::open(const fs::path& path, bool check_hashes) {
+  std::error_code ec;
+  if (!fs::exists(path, ec)) throw Error(path.string(), "no such package");
+  const fs::path file = path / kManifestFile;
+  if (!fs::is_directory(path, ec) || !fs::is_regular_file(file, ec))
+    throw NotMyFormat(path.string(), "is no sconce package", "a folder that holds manifest.json");
+  Package package;
+  package.path_ = path;
+  package.manifest_ = parse_manifest(read_file(file), file.string());
+  check_listed(package.manifest_, file.string());
+  const std::vector<Listed> files = listed_files(path, package.manifest_);
+  for (const Listed& listed : files) check_presence(listed);
+  if (check_hashes)
+    parallel_for(files.size(), 1, [&](std::size_t i) {
+      if (hash_file(files[i].path) != files[i].hash)
+        throw Error(files[i].path.string(), "is damaged: its content is not what the manifest says");
+    });
+  return package;
+}
+
+Image Package::layer(std::size_t group, int page) const {
+  for (const LayerInfo& layer : manifest_.layers) {
+    if (layer.group != group || layer.page != page) continue;
+    const fs::path file = path_ / "layers" / layer.file;
+    const std::string name = layer_names(manifest_.groups)[group];
+    Image image = pick(read_exr(file), {name + ".R", name + ".G", name + ".B"}, manifest_, file);
+    const auto unit = image.text.find("sconce:unit");
+    if (unit == image.text.end() || unit->second != "lux")
+      throw Error(file.string(), "lacks the attribute sconce:unit = lux");
+    image.channels = {"R", "G", "B"};
+    return image;
+  }
+  throw Error(path_.string(), "has no layer " + std::to_string(group) + " on page " + std::to_string(page));
+}
+
+Image Package::receivers(int page) const {
+  const fs::path file = path_ / page_file("receivers", page);
+  return pick(read_exr(file), {"albedo.R", "albedo.G", "albedo.B", "weight"}, manifest_, file);
+}
+
+Image Package::noise(int page) const {
+  const fs::path file = path_ / page_file("noise", page);
+  return pick(read_exr(file), layer_names(manifest_.groups), manifest_, file);
+}
+
+Scene Package::scene() const {
+  const std::string where = (path_ / "scene.glb").string();
+  Scene scene = read_glb(read_file(where), where);
+  for (const GroupInfo& group : manifest_.groups) scene.groups.push_back({group.name});
+  for (Instance& instance : scene.instances) instance.group = find_group(manifest_, instance.group_name);
+  std::size_t skies = 0;
+  for (Light& light : scene.lights) {
+    light.group = find_group(manifest_, light.group_name);
+    if (auto* sky = std::get_if<SkyLight>(&light.shape)) {
+      const fs::path file = path_ / sky_file(skies++);
+      sky->image = read_exr(file);
+      if (sky->image.channels != std::vector<std::string>{"R", "G", "B"})
+        throw Error(file.string(), "does not hold the channels R, G, B");
+    }
+  }
+  check_scene(scene, manifest_, where);
+  return scene;
+}
+
+}  // namespace sconce

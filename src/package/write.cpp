@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "encode/encoding.h"
+#include "package/glb.h"
+#include "package/manifest.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+
+namespace {
+
+// A package replaces a package; whatever else stands under the name is not ours to remove.
+void check_target(const fs::path& path) {
+  std::error_code ec;
+  if (!fs::exists(path, ec)) return;
+  if (fs::is_directory(path, ec)) {
+    if (fs::is_empty(path, ec)) return;
+    if (is_package(path)) return;
+  }
+  throw Error(path.string(), "exists and is no sconce package; it is left alone");
+}
+
+void check_page(const Image& image, const Manifest& m, std::size_t channels, const char* what) {
+  if (image.width != m.width || image.height != m.height || image.stride() != channels)
+    throw Error({}, std::string(what) + " image does not have the atlas's size or channels");
+}
+
+void check(const PackageContents& c) {
+  const Manifest& m = c.manifest;
+  const auto pages = static_cast<std::size_t>(m.pages);
+  if (c.layers.size() != m.groups.size() || c.encodings.size() != m.groups.size() ||
+      c.receivers.size() != pages || (!c.noise.empty() && c.noise.size() != pages))
+    throw Error({}, "the package's images do not match its groups and pages");
+  for (const std::vector<Image>& group : c.layers) {
+    if (group.size() != pages) throw Error({}, "a light group's layer misses a page");
+    for (const Image& image : group) check_page(image, m, 3, "a layer's");
+  }
+  for (const Image& image : c.receivers) check_page(image, m, 4, "the receivers'");
+  for (const Image& image : c.noise) check_page(image, m, m.groups.size(), "the noise");
+  if (m.instance_pages.size() != c.scene.instances.size() ||
+      m.instance_twins.size() != c.scene.instances.size())
+    throw Error({}, "the package's instance tables do not match its scene");
+}
+
+float largest(const Image& image) {
+  float most = 0;
+  for (const float v : image.data)
+    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  return most;
+}
+
+// Direct sun exceeds what halves hold: such a layer is kept in full floats rather than clipped.
+std::string fitting_encoding(const std::string& wanted, const std::vector<Image>& pages) {
+  const Encoding& encoding = find_encoding(wanted);
+  for (const Image& page : pages)
+    if (largest(page) > encoding.largest) return "f32";
+  return wanted;
+}
+
+// Radiance of a sky, its strength multiplied in; a constant sky is one pixel.
+Image sky_image(const Light& light) {
+  Image image = std::get<SkyLight>(light.shape).image;
+  if (image.data.empty()) {
+    image = Image::rgb(1, 1);
+    image.set_rgb(0, 0, Rgb(1));
+  }
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) image.set_rgb(x, y, image.rgb_at(x, y) * light.intensity);
+  image.text = {{"sconce:unit", "cd/m2"}};
+  return image;
+}
+
+/// One file of the package: how to write it, and where its hash goes.
+struct Job {
+  fs::path file;
+  std::function<void(const fs::path&)> write;
+  std::string hash;
+  uint64_t bytes = 0;
+};
+
+class Writer {
+ public:
+  explicit Writer(PackageContents& contents) : c_(contents), m_(contents.manifest) {
+    names_ = layer_names(m_.groups);
+    add_layers();
+    add_pages();
+    add_sky();
+    jobs_.push_back(
+        {"scene.glb", [this](const fs::path& f) { write_file(f, write_glb(c_.scene, m_.generator)); }, {}});
+  }
+
+  void run(const fs::path& folder) {
+    fs::create_directory(folder);
+    fs::create_directory(folder / "layers");
+    parallel_for(jobs_.size(), 1, [&](std::size_t i) {
+      Job& job = jobs_[i];
+      job.write(folder / job.file);
+      job.hash = hash_file(folder / job.file);
+      job.bytes = fs::file_size(folder / job.file);
+    });
+    for (std::size_t i = 0; i < m_.layers.size(); ++i) {
+      m_.layers[i].hash = jobs_[i].hash;
+      m_.layers[i].bytes = jobs_[i].bytes;
+    }
+    m_.hashes.clear();
+    for (std::size_t i = m_.layers.size(); i < jobs_.size(); ++i)
+      m_.hashes[jobs_[i].file.string()] = jobs_[i].hash;
+    write_file(folder / kManifestFile, print_manifest(m_));
+  }
+
+ private:
+  void add_layers() {
+    m_.layers.clear();
+    for (std::size_t g = 0; g < m_.groups.size(); ++g) {
+      const std::string encoding = fitting_encoding(c_.encodings[g], c_.layers[g]);
+      const PixelType type = find_encoding(encoding).exr_type;
+      for (int page = 0; page < m_.pages; ++page) {
+        Image& image = c_.layers[g][static_cast<std::size_t>(page)];
+        image.channels = {names_[g] + ".R", names_[g] + ".G", names_[g] + ".B"};
+        image.text["sconce:unit"] = "lux";
+        image.text["sconce:group"] = m_.groups[g].name;
+        const std::string file = page_file(safe_file_name(m_.groups[g].name), page);
+        m_.layers.push_back({static_cast<uint32_t>(g), page, encoding, file, {}, 0});
+        jobs_.push_back({fs::path("layers") / file,
+                         [&image, type](const fs::path& f) { write_exr(f, image, type); },
+                         {}});
+      }
+    }
+  }
+
+  void add_pages() {
+    for (int page = 0; page < m_.pages; ++page) {
+      const auto i = static_cast<std::size_t>(page);
+      c_.receivers[i].channels = {"albedo.R", "albedo.G", "albedo.B", "weight"};
+      jobs_.push_back({page_file("receivers", page),
+                       [this, i](const fs::path& f) { write_exr(f, c_.receivers[i], PixelType::full); },
+                       {}});
+      if (c_.noise.empty() || m_.groups.empty()) continue;
+      c_.noise[i].channels = names_;
+      jobs_.push_back({page_file("noise", page),
+                       [this, i](const fs::path& f) { write_exr(f, c_.noise[i], PixelType::half); },
+                       {}});
+    }
+  }
+
+  void add_sky() {
+    std::size_t count = 0;
+    for (const Light& light : c_.scene.lights) {
+      if (!std::holds_alternative<SkyLight>(light.shape)) continue;
+      jobs_.push_back({sky_file(count++),
+                       [&light](const fs::path& f) {
+                         const Image image = sky_image(light);
+                         const bool fits = largest(image) <= find_encoding("f16").largest;
+                         write_exr(f, image, fits ? PixelType::half : PixelType::full);
+                       },
+                       {}});
+    }
+  }
+
+  PackageContents& c_;
+  Manifest& m_;
+  std::vector<std::string> names_;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace
+
+void write_package(const fs::path& path, PackageContents contents) {
+  check_target(path);
+  check(contents);
+  Writer writer(contents);
+  Beside beside(path);
+  try {
+    writer.run(beside.path());
+  } catch (const fs::filesystem_error& e) {
+    throw Error(path.string(), "cannot be written: " + e.code().message());
+  } catch (const Error& e) {
+    // The user knows the package by its own name, not by the one it is written under.
+    std::string what = e.what();
+    const std::string temporary = beside.path().string();
+    if (const std::size_t at = what.find(temporary); at != std::string::npos)
+      what.replace(at, temporary.size(), path.string());
+    throw Error({}, what);
+  }
+  beside.commit();
+}
+
+}  // namespace sconce
