@@ -42,6 +42,7 @@ struct AtlasReport {
 /// A surface chart placed in texels; front and back (twin) of each World triangle.
 struct Atlas {
   int width = 0, height = 0, pages = 0;
+  float density = 0;                       ///< texels per metre where the density scale is 1
   std::vector<TexelTriangle> front, back;  ///< per World triangle
   AtlasReport report;
 };
@@ -66,6 +67,9 @@ class TexelReceivers {
   uint32_t texel(std::size_t i) const { return texels_[i]; }
   /// Clips the texel's triangles; pieces carry the back's flipped normals where the texel is of a twin chart.
   Footprint footprint(std::size_t i) const;
+  /// How much the texel's surface is looked at: (its texels per metre / atlas.density)^2, at most 1; exposure is metered
+  /// with area x importance.
+  float importance(std::size_t i) const;
   /// Area-weighted mean diffuse albedo over the footprint's triangles (contract: without emission).
   Rgb albedo(const Scene& scene, std::size_t i) const;
 

@@ -137,6 +137,13 @@ bool Tracer::occluded(const Ray& ray) const {
   return query.tfar < 0;
 }
 
+std::string isa() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "x86-64 + avx512";
+  if (__builtin_cpu_supports("avx2")) return "x86-64 + avx2";
+  if (__builtin_cpu_supports("avx")) return "x86-64 + avx";
+  return __builtin_cpu_supports("sse4.2") ? "x86-64 + sse4.2" : "x86-64 + sse2";
+}
+
 Vec3 offset_origin(const Vec3& position, const Vec3& face_normal, const Vec3& direction) {
   const float size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), 1e-2f});
   const Vec3 away = glm::dot(face_normal, direction) < 0 ? -face_normal : face_normal;

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
+#include <string>
 
 #include "scene/world.h"
 
@@ -43,6 +43,9 @@ class Tracer {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Instruction set that Embree's kernels run on here. Same binary and same ISA give the same bits.
+std::string isa();
 
 /// Start of a ray that leaves a surface: moved off along the face normal (towards `direction`) by a few ulps of the
 /// coordinates, so that the ray does not meet its own surface again.

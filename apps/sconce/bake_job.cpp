@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_job.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "encode/encoding.h"
+#include "import/import.h"
+
+namespace sconce::app {
+
+namespace {
+
+Scene load(const BakeJob& job, const Progress& progress) {
+  progress.at("read scene", 0, 1);
+  Scene scene = import_scene(job.scene, progress);
+  assign_groups(scene, parse_grouping(job.grouping));
+  if (scene.groups.empty())
+    throw Error(job.scene.string(), "the scene has no lights",
+                "emissive materials, KHR_lights_punctual, or [[light]] and [sky] in " + job.scene.stem().string() + ".toml");
+  return scene;
+}
+
+std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceivers& receivers) {
+  ContentHash hash;
+  hash.text(SCONCE_VERSION).text(hash_file(job.scene));
+  for (const std::filesystem::path& file : scene_files(job.scene)) hash.text(hash_file(file));
+  hash.text(job.grouping).text(job.solver).text("flat");
+  hash.value(job.params.seed).value(job.params.bounces);
+  hash.value(job.atlas.page_size).value(job.atlas.max_page).value(job.atlas.density).value(job.atlas.gutter);
+  hash.value(job.atlas.min_density_scale).value(job.atlas.keep_uvs).value(job.atlas.seed);
+  for (const LightGroup& group : scene.groups) hash.text(group.name);
+  hash.value(receivers.size());
+  return hash.hex();
+}
+
+/// The encoding of each group by `--encoding f16,ceiling=f32`.
+std::vector<std::string> group_encodings(const std::string& text, const Scene& scene) {
+  std::vector<std::string> result(scene.groups.size(), "f16");
+  for (const std::string& part : split(text, ',')) {
+    const std::size_t equals = part.rfind('=');
+    const std::string pattern = equals == std::string::npos ? "*" : part.substr(0, equals);
+    const std::string name(find_encoding(equals == std::string::npos ? part : part.substr(equals + 1)).name);
+    bool found = false;
+    for (std::size_t g = 0; g < result.size(); ++g)
+      if (glob_match(pattern, scene.groups[g].name)) {
+        result[g] = name;
+        found = true;
+      }
+    if (!found) {
+      std::vector<std::string> names;
+      for (const LightGroup& group : scene.groups) names.push_back(group.name);
+      throw UsageError("--encoding", "unknown group '" + pattern + "'", join(names, ", "));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string BakeJob::to_json() const {
+  const nlohmann::json json = {{"scene", scene.string()},
+                               {"grouping", grouping},
+                               {"solver", solver},
+                               {"encoding", encoding},
+                               {"page_size", atlas.page_size},
+                               {"max_page", atlas.max_page},
+                               {"density", atlas.density},
+                               {"samples", params.samples},
+                               {"bounces", params.bounces},
+                               {"seed", params.seed},
+                               {"noise", params.noise}};
+  return json.dump();
+}
+
+BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    BakeJob job;
+    job.scene = json.at("scene").get<std::string>();
+    json.at("grouping").get_to(job.grouping);
+    json.at("solver").get_to(job.solver);
+    json.at("encoding").get_to(job.encoding);
+    json.at("page_size").get_to(job.atlas.page_size);
+    json.at("max_page").get_to(job.atlas.max_page);
+    json.at("density").get_to(job.atlas.density);
+    json.at("samples").get_to(job.params.samples);
+    json.at("bounces").get_to(job.params.bounces);
+    json.at("seed").get_to(job.params.seed);
+    json.at("noise").get_to(job.params.noise);
+    return job;
+  } catch (const nlohmann::json::exception&) {
+    throw Error(where, "the bake's description is damaged");
+  }
+}
+
+PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress)
+    : job(job_),
+      scene(load(job, progress)),
+      world(make_world(scene)),
+      tracer(scene, world),
+      lamps(scene, world),
+      atlas(make_atlas(scene, world, tracer, job.atlas, progress)),
+      receivers(world, tracer, atlas, progress),
+      hash(bake_hash(job, scene, receivers)) {
+  group_encodings(job.encoding, scene);  // a wrong name must fail before the work, not after
+  find_solver(job.solver);
+  for (const std::string& warning : atlas.report.warnings) progress.warn(warning);
+}
+
+BakeHeader PreparedBake::header() const {
+  return {hash, isa(), static_cast<uint32_t>(scene.groups.size()), receivers.size(), TexelReceivers::kTile, job.to_json()};
+}
+
+std::string PreparedBake::result_hash() const {
+  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).hex();
+}
+
+void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
+  const SolveContext context{bake.scene, bake.world, bake.tracer, bake.lamps};
+  const auto solver = find_solver(bake.job.solver).prepare(context, bake.job.params, progress);
+  bake_tiles(*solver, bake.job.params, bake.receivers, shard, state, progress);
+}
+
+Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, const std::filesystem::path& output,
+                      const std::map<std::string, Provenance>& options, const Progress& progress) {
+  if (const auto missing = missing_tiles(states, bake.job.params); !missing.empty())
+    throw Error(output.string(), fmt::format("{} of {} tiles are missing, the first is {}", missing.size(),
+                                             states.front().tiles(), missing.front()),
+                "all shards of one bake");
+  const Atlas& atlas = bake.atlas;
+  const std::size_t page_texels = static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
+
+  PackageContents contents;
+  for (int p = 0; p < atlas.pages; ++p)
+    contents.receivers.push_back(Image(atlas.width, atlas.height, {"albedo.R", "albedo.G", "albedo.B", "weight"}));
+  std::vector<float> areas(bake.receivers.size());
+  progress.at("receivers", 0, 1);
+  parallel_for(bake.receivers.size(), 256, [&](std::size_t i) {
+    areas[i] = bake.receivers.footprint(i).area;
+    const Rgb albedo = bake.receivers.albedo(bake.scene, i);
+    const uint32_t texel = bake.receivers.texel(i);
+    float* pixel = &contents.receivers[texel / page_texels].data[4 * (texel % page_texels)];
+    pixel[0] = albedo.r, pixel[1] = albedo.g, pixel[2] = albedo.b;
+    pixel[3] = areas[i] * bake.receivers.importance(i);
+  });
+
+  BakedScene baked = make_baked_scene(bake.scene, bake.world, atlas);
+  Manifest& manifest = contents.manifest;
+  manifest.generator = "sconce " SCONCE_VERSION;
+  manifest.scene_name = bake.scene.name;
+  manifest.scene_hash = bake.hash;
+  manifest.width = atlas.width, manifest.height = atlas.height, manifest.pages = atlas.pages;
+  manifest.density = static_cast<double>(atlas.density);
+  manifest.lightmap_set = baked.lightmap_set;
+  manifest.instance_pages = baked.pages;
+  for (const Id<Instance> twin : baked.twins) manifest.instance_twins.push_back(twin.valid() ? static_cast<int>(twin.value) : -1);
+  manifest.options = options;
+  manifest.facts = {{"solver", bake.job.solver},
+                    {"samples", fmt::format("{}", bake.job.params.samples)},
+                    {"isa", isa()},
+                    {"seed", fmt::format("{}", bake.job.params.seed)},
+                    {"result_hash", bake.result_hash()},
+                    {"receivers", fmt::format("{}", bake.receivers.size())},
+                    {"charts", fmt::format("{}", atlas.report.charts)},
+                    {"utilisation", fmt::format("{:.3f}", atlas.report.utilisation)},
+                    {"invalid", fmt::format("{}", atlas.report.invalid)},
+                    {"stretch", fmt::format("mean {:.3f}, max {:.3f}", atlas.report.stretch_mean, atlas.report.stretch_max)}};
+  contents.encodings = group_encodings(bake.job.encoding, bake.scene);
+
+  std::vector<std::string> noise_channels;
+  for (const LightGroup& group : bake.scene.groups) noise_channels.push_back(group.name);
+  for (int p = 0; p < atlas.pages; ++p) contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
+  const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
+  for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
+    progress.at("layers", g, bake.scene.groups.size());
+    progress.check();
+    Layer layer = assemble_layer(states, g, atlas, bake.receivers, areas);
+    for (std::size_t p = 0; p < layer.noise.size(); ++p)
+      for (std::size_t i = 0; i < page_texels; ++i)
+        contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i];
+    const GroupFlux& flux = fluxes[g];
+    manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite, layer.mean_lux,
+                               layer.relative_noise, flux.lamps});
+    contents.layers.push_back(std::move(layer.pages));
+  }
+  contents.scene = std::move(baked.scene);
+  progress.at("write", 0, 1);
+  write_package(output, std::move(contents));
+  return Package::open(output, false).manifest();
+}
+
+void print_result(const Manifest& manifest, const std::filesystem::path& output, double seconds, bool json) {
+  double bytes = 0;
+  for (const LayerInfo& layer : manifest.layers) bytes += static_cast<double>(layer.bytes);
+  if (json) {
+    nlohmann::json groups = nlohmann::json::array();
+    for (const GroupInfo& group : manifest.groups)
+      groups.push_back({{"name", group.name}, {"lumens", group.lumens}, {"mean_lux", group.mean_lux}, {"noise", group.noise}});
+    const nlohmann::json report = {{"output", output.string()}, {"seconds", seconds},         {"width", manifest.width},
+                                   {"height", manifest.height}, {"pages", manifest.pages},    {"layer_bytes", bytes},
+                                   {"groups", groups},          {"facts", manifest.facts}};
+    fmt::print("{}\n", report.dump(2));
+    return;
+  }
+  fmt::print("{}: {} group{}, {} page{} of {} x {}, {:.1f} MB of layers, {:.1f} s\n", output.string(), manifest.groups.size(),
+             manifest.groups.size() == 1 ? "" : "s", manifest.pages, manifest.pages == 1 ? "" : "s", manifest.width,
+             manifest.height, bytes / 1e6, seconds);
+  for (const GroupInfo& group : manifest.groups)
+    fmt::print("  {:<20} {:>10} {:>12.4g} lx mean  noise {:.1f} %\n", group.name,
+               group.infinite ? "-" : fmt::format("{:.4g} lm", group.lumens), group.mean_lux, 100 * group.noise);
+}
+
+}  // namespace sconce::app

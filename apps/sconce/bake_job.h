@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bake from scene file to package: what `bake` starts, `--resume` and `merge` take up again.
+#pragma once
+
+#include <filesystem>
+
+#include "package/package.h"
+#include "scene/groups.h"
+#include "solve/bake.h"
+
+namespace sconce::app {
+
+/// Everything that decides a bake's result. As JSON it travels in the state file, so that shards can be merged.
+struct BakeJob {
+  std::filesystem::path scene;     ///< absolute
+  std::string grouping = "auto";
+  std::string solver = "path";
+  std::string encoding = "f16";    ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
+  AtlasParams atlas;
+  BakeParams params;
+
+  std::string to_json() const;
+  /// @throws Error naming `where`
+  static BakeJob from_json(const std::string& text, const std::string& where);
+};
+
+/// A job with its scene loaded, charts cut and lamps found; members refer to each other, so it stays where it is.
+struct PreparedBake {
+  BakeJob job;
+  Scene scene;
+  World world;
+  Tracer tracer;
+  Lamps lamps;
+  Atlas atlas;
+  TexelReceivers receivers;
+  std::string hash;  ///< of what records depend on: contract.md, "The resume hash"
+
+  PreparedBake(const BakeJob& job, const Progress& progress);
+  PreparedBake(const PreparedBake&) = delete;
+  PreparedBake& operator=(const PreparedBake&) = delete;
+
+  BakeHeader header() const;
+  /// Hash of the records and of how they are sampled and encoded: equal means a package need not be baked again.
+  std::string result_hash() const;
+};
+
+/// Bakes the tiles that `state` lacks.
+void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
+
+/// Fills gaps and writes the package. @throws Error: tiles missing, unwritable
+/// @param options  provenance for the manifest
+/// @return what was written
+Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, const std::filesystem::path& output,
+                      const std::map<std::string, Provenance>& options, const Progress& progress);
+
+/// "name: 5 groups, 13 lamps, ..." lines for a person, or JSON.
+void print_result(const Manifest& manifest, const std::filesystem::path& output, double seconds, bool json);
+
+}  // namespace sconce::app
