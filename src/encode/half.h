@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// IEEE 754 binary16 <-> binary32, all codes: subnormals, infinities, NaN.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace sconce {
+
+inline constexpr float kLargestHalf = 65504.0f;
+inline constexpr float kSmallestNormalHalf = 0x1p-14f;
+
+/// Exact for every code; NaN payloads are kept.
+constexpr float half_to_float(uint16_t h) {
+  const uint32_t sign = static_cast<uint32_t>(h & 0x8000u) << 16;
+  const uint32_t exponent = (h >> 10) & 31u, mantissa = h & 0x3ffu;
+  if (exponent == 31) return std::bit_cast<float>(sign | 0x7f800000u | (mantissa << 13));
+  if (exponent != 0) return std::bit_cast<float>(sign | ((exponent + 112) << 23) | (mantissa << 13));
+  const float magnitude = static_cast<float>(mantissa) * 0x1p-24f;
+  return sign != 0 ? -magnitude : magnitude;
+}
+
+/// Rounded to nearest, ties to even; above 65519.996 infinity, as in IEEE 754. NaN stays NaN.
+constexpr uint16_t float_to_half(float f) {
+  const uint32_t bits = std::bit_cast<uint32_t>(f);
+  const auto sign = static_cast<uint16_t>((bits >> 16) & 0x8000u);
+  const uint32_t magnitude = bits & 0x7fffffffu;
+  if (magnitude > 0x7f800000u) return static_cast<uint16_t>(sign | 0x7e00u | ((magnitude >> 13) & 0x3ffu));
+  if (magnitude >= 0x477ff000u) return sign | 0x7c00u;  // 65520 and above
+  if (magnitude >= 0x38800000u) {                       // normal: drop 13 bits, round, rebias the exponent
+    const uint32_t odd = (magnitude >> 13) & 1u;
+    return static_cast<uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
+  }
+  // Subnormal: adding 0.5 makes the float unit round at 2^-24, to nearest even.
+  const float shifted = std::bit_cast<float>(magnitude) + 0.5f;
+  return static_cast<uint16_t>(sign | (std::bit_cast<uint32_t>(shifted) - 0x3f000000u));
+}
+
+}  // namespace sconce
