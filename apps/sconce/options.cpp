@@ -80,7 +80,12 @@ struct Options::State {
   }
   Declared& add_flag(const std::string& names, bool* value, const std::string& doc) {
     Declared& d = add(names, doc, "");
-    d.assign = [value](const std::vector<std::string>& texts) { *value = texts.front() == "true"; };
+    d.assign = [value](const std::vector<std::string>& texts) {
+      if (texts.front() != "true" && texts.front() != "false") {
+        throw UsageError({}, "expected true or false, got '" + texts.front() + "'");
+      }
+      *value = texts.front() == "true";
+    };
     d.show = [value] { return *value ? "true" : "false"; };
     return d;
   }
@@ -149,7 +154,7 @@ void Options::State::read_command_line(int argc, const char* const* argv) {
   for (std::size_t i = 0; i < declared.size(); ++i) {
     Declared& d = declared[i];
     if (handles[i]->count() > 0) {
-      take(d, d.is_flag() ? std::vector<std::string>{"true"} : handles[i]->results());
+      take(d, d.is_flag() ? std::vector<std::string>{handles[i]->results().back()} : handles[i]->results());
     } else if (d.required) {
       throw UsageError({}, fmt::format("missing argument {}: {}", d.names, d.doc));
     }
@@ -237,7 +242,7 @@ void Options::flag(const std::string& names, bool* value, const std::string& doc
 
 std::optional<int> Options::parse(int argc, const char* const* argv) {
   flag("--json", &json, "report as JSON on standard output");
-  flag("--quiet", &quiet, "no progress, no report");
+  flag("--quiet", &quiet, "no progress line, no closing summary");
   option("--threads", &threads, "worker threads, 0 = all of the machine");
   state_->add_text("--config", &config, "file whose [options] apply where the command line says nothing")
       .in_files = false;

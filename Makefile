@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# The everyday commands; each does what is missing first. The build itself is CMake's (CMakePresets.json).
+
+SUITES ?= lean
+BUILD := build/release
+OUT := out
+# The distribution's `c++` may be any compiler; ours is g++ unless asked otherwise (make CXX=clang++-16 ...).
+ifeq ($(origin CXX),default)
+CXX := g++
+endif
+JOBS := $(shell nproc)
+
+.DEFAULT_GOAL := help
+.PHONY: help demo build test bench format tidy setup
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: ## install the Debian packages that are missing (packages.txt)
+	@tools/setup.sh lean
+
+$(BUILD)/build.ninja: | setup
+	cmake --preset release -B $(BUILD) -DCMAKE_CXX_COMPILER=$(CXX)
+
+build: setup $(BUILD)/build.ninja ## the program: build/release/sconce
+	ninja -C $(BUILD) sconce
+
+demo: build ## bake our bathroom and picture it in four moods: out/demo/
+	scenes/demo.sh $(BUILD) $(OUT)/demo
+
+# The suite `lean` leaves out what needs large packages (label big); SUITES=all adds it.
+test: setup $(BUILD)/build.ninja ## build everything and run the tests; SUITES=all for the whole suite
+	$(if $(filter all,$(SUITES)),@tools/setup.sh lean all)
+	ninja -C $(BUILD)
+	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS) $(if $(filter all,$(SUITES)),,-LE big)
+
+bench: setup ## run the benchmarks: bench/results/
+	cmake --preset release -B build/bench -DCMAKE_CXX_COMPILER=$(CXX) -DSCONCE_BENCH=ON
+	ninja -C build/bench run_bench
+
+format: ## clang-format over all sources
+	@tools/setup.sh dev
+	git ls-files '*.cpp' '*.h' | xargs clang-format-16 -i
+
+tidy: setup ## clang-tidy over all sources
+	@tools/setup.sh dev
+	cmake --preset tidy
+	ninja -C build/tidy

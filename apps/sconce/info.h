@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `sconce info` prints: one text for people, one JSON value for machines.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/progress.h"
+#include "core/rgb.h"
+
+namespace sconce::app {
+
+struct InfoReport {
+  std::string text;
+  nlohmann::ordered_json json;
+};
+
+/// @param groups   how lights become groups, a name of scene/groups.h
+/// @param options  list the side file's [options], too
+InfoReport scene_info(const std::filesystem::path& path, const std::string& groups, bool options,
+                      const Progress& progress);
+InfoReport package_info(const std::filesystem::path& path, bool options);
+
+/// "#rrggbb" of a linear colour of any brightness, its largest channel at ff.
+std::string hex_color(const Rgb& linear);
+/// At most `limit` names, then how many more.
+std::string some_names(const std::vector<std::string>& names, std::size_t limit = 4);
+
+}  // namespace sconce::app

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <mutex>
+
+#include "config.h"
+#include "import/import.h"
+#include "info.h"
+#include "light/lamp.h"
+#include "scene/groups.h"
+#include "table.h"
+
+namespace sconce::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t instanced_triangles(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Instance& instance : scene.instances) count += scene[instance.mesh].triangles.size();
+  return count;
+}
+
+Json json_of(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+Json json_of(const Rgb& c) {
+  return {c.r, c.g, c.b};
+}
+
+void add_groups(const Scene& scene, const World& world, InfoReport& report) {
+  const Lamps lamps(scene, world);
+  const std::vector<GroupFlux> fluxes = group_flux(scene, lamps);
+  Table table({{"GROUP"}, {"LUMENS", Table::Align::right}, {"COLOUR"}, {"LAMPS", Table::Align::right}, {""}});
+  Json& groups = report.json["groups"] = Json::array();
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    const GroupFlux& flux = fluxes[g];
+    table.add({scene.groups[g].name, flux.infinite ? "-" : grouped(flux.lumens, flux.lumens < 100 ? 1 : 0),
+               hex_color(flux.color), std::to_string(flux.lamps.size()), some_names(flux.lamps)});
+    groups.push_back({{"name", scene.groups[g].name},
+                      {"lumens", flux.infinite ? Json() : Json(flux.lumens)},
+                      {"color", json_of(flux.color)},
+                      {"color_spread", flux.spread},
+                      {"lamps", flux.lamps}});
+  }
+  report.text += fmt::format("light groups  {}\n", scene.groups.size());
+  if (!scene.groups.empty()) report.text += table.text();
+}
+
+void add_cameras(const Scene& scene, InfoReport& report) {
+  Json& cameras = report.json["cameras"] = Json::array();
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) {
+    names.push_back(camera.name);
+    cameras.push_back({{"name", camera.name},
+                       {"position", json_of(Vec3(camera.frame[3]))},
+                       {"fov_degrees", glm::degrees(camera.yfov)},
+                       {"aspect", camera.aspect}});
+  }
+  report.text += fmt::format("cameras       {}\n", names.empty() ? "none" : some_names(names, 8));
+}
+
+void add_options(const std::filesystem::path& scene_path, InfoReport& report) {
+  std::filesystem::path side_file = scene_path;
+  side_file.replace_extension(".toml");
+  Json& options = report.json["options"] = Json::object();
+  std::vector<ConfigEntry> entries;
+  if (std::filesystem::exists(side_file)) entries = read_config(side_file).entries;
+  Table table({{"OPTION"}, {"VALUE"}, {"FROM"}});
+  for (const ConfigEntry& entry : entries) {
+    std::string value;
+    for (const std::string& v : entry.values) value += (value.empty() ? "" : " ") + v;
+    table.add({entry.key, value, entry.where});
+    options[entry.key] = {{"value", value}, {"source", entry.where}};
+  }
+  report.text += entries.empty() ? fmt::format("options       none in {}\n", side_file.filename().string())
+                                 : "options\n" + table.text();
+}
+
+}  // namespace
+
+InfoReport scene_info(const std::filesystem::path& path, const std::string& groups, bool options,
+                      const Progress& progress) {
+  const Grouping grouping = parse_grouping(groups);
+  std::vector<std::string> warnings;
+  std::mutex mutex;
+  Progress noting = progress;
+  noting.warning = [&](const std::string& line) {
+    const std::lock_guard lock(mutex);
+    warnings.push_back(line);
+    progress.warn(line);
+  };
+  Scene scene = import_scene(path, noting);
+  assign_groups(scene, grouping);
+  const World world = make_world(scene);
+
+  InfoReport report;
+  const Vec3 size = world.bounds.hi - world.bounds.lo;
+  report.json = {{"kind", "scene"},
+                 {"file", path.string()},
+                 {"meshes", scene.meshes.size()},
+                 {"instances", scene.instances.size()},
+                 {"triangles", instanced_triangles(scene)},
+                 {"materials", scene.materials.size()},
+                 {"textures", scene.textures.size()},
+                 {"bounds", {{"min", json_of(world.bounds.lo)}, {"max", json_of(world.bounds.hi)}}}};
+  report.text = fmt::format("scene         {}\n", path.filename().string());
+  report.text += fmt::format("geometry      {} triangles in {} instances of {} meshes\n",
+                             grouped(static_cast<double>(instanced_triangles(scene))), scene.instances.size(),
+                             scene.meshes.size());
+  report.text +=
+      fmt::format("surfaces      {} materials, {} textures\n", scene.materials.size(), scene.textures.size());
+  report.text += fmt::format("size          {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f})\n",
+                             size.x, size.y, size.z, world.bounds.lo.x, world.bounds.lo.y, world.bounds.lo.z);
+  add_cameras(scene, report);
+  add_groups(scene, world, report);
+  if (options) add_options(path, report);
+  report.json["warnings"] = warnings;
+  return report;
+}
+
+}  // namespace sconce::app
