@@ -14,27 +14,28 @@
 namespace sconce {
 
 struct AtlasParams {
-  int page_size = 0;              ///< texels; 0 = chosen from `density`, power of two up to max_page
+  int page_size = 0;  ///< texels; 0 = chosen from `density`, power of two up to max_page
   int max_page = 4096;
-  float density = 0;              ///< texels per metre; 0 = chosen so that one page of `page_size` is filled
-  int gutter = 2;                 ///< texels between charts, at least 2
+  float density = 0;  ///< texels per metre; 0 = chosen so that one page of `page_size` is filled
+  int gutter = 2;     ///< texels between charts, at least 2
   float min_density_scale = 1.0f / 16;  ///< linear scale for what nobody sees
-  bool keep_uvs = true;           ///< use an existing, valid set
+  bool keep_uvs = true;                 ///< use an existing, valid set
   uint32_t seed = 1;
 };
 
 /// One side of a triangle in the atlas.
 struct TexelTriangle {
-  std::array<Vec2, 3> uv;   ///< texel coordinates on its page: x right, y down, row 0 = v 0
-  int page = -1;            ///< -1: this side has no texels (emissive back, unseen back, single-sided back)
+  std::array<Vec2, 3> uv;  ///< texel coordinates on its page: x right, y down, row 0 = v 0
+  int page = -1;           ///< -1: this side has no texels (emissive back, unseen back, single-sided back)
   uint32_t chart = 0;
 };
 
 struct AtlasReport {
   std::size_t charts = 0, texels = 0, invalid = 0;
-  double utilisation = 0;             ///< used texels / page texels
-  double stretch_mean = 0, stretch_max = 0;  ///< L2 stretch, 1 = isometric, area-weighted mean and maximum over charts
-  std::size_t twins = 0;              ///< triangles whose back has texels
+  double utilisation = 0;  ///< used texels / page texels
+  double stretch_mean = 0,
+         stretch_max = 0;  ///< L2 stretch, 1 = isometric, area-weighted mean and maximum over charts
+  std::size_t twins = 0;   ///< triangles whose back has texels
   bool kept_uvs = false;
   std::vector<std::string> warnings;
 };
@@ -44,6 +45,8 @@ struct Atlas {
   int width = 0, height = 0, pages = 0;
   float density = 0;                       ///< texels per metre where the density scale is 1
   std::vector<TexelTriangle> front, back;  ///< per World triangle
+  std::vector<uint8_t>
+      reached_back;  ///< per World triangle: 1 where probe rays reach its back, so that it is legal to see
   AtlasReport report;
 };
 
@@ -55,10 +58,11 @@ Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, c
 /// The texels of an atlas as receivers, in fixed tiles.
 class TexelReceivers {
  public:
-  static constexpr std::size_t kTile = 256;  ///< receivers per tile: the unit of work, of checkpoints and of shards
+  static constexpr std::size_t kTile =
+      256;  ///< receivers per tile: the unit of work, of checkpoints and of shards
 
-  /// Rasterises conservatively: a texel is a receiver where a triangle covers any of it. Those whose sub-points mostly
-  /// see back faces (buried) are left out and counted invalid.
+  /// Rasterises conservatively: a texel is a receiver where a triangle covers any of it. Those whose
+  /// sub-points mostly see back faces (buried) are left out and counted invalid.
   TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas, const Progress& progress = {});
 
   std::size_t size() const { return texels_.size(); }
@@ -67,8 +71,8 @@ class TexelReceivers {
   uint32_t texel(std::size_t i) const { return texels_[i]; }
   /// Clips the texel's triangles; pieces carry the back's flipped normals where the texel is of a twin chart.
   Footprint footprint(std::size_t i) const;
-  /// How much the texel's surface is looked at: (its texels per metre / atlas.density)^2, at most 1; exposure is metered
-  /// with area x importance.
+  /// How much the texel's surface is looked at: (its texels per metre / atlas.density)^2, at most 1; exposure
+  /// is metered with area x importance.
   float importance(std::size_t i) const;
   /// Area-weighted mean diffuse albedo over the footprint's triangles (contract: without emission).
   Rgb albedo(const Scene& scene, std::size_t i) const;
@@ -79,20 +83,23 @@ class TexelReceivers {
   std::vector<uint32_t> texels_;
   std::vector<uint32_t> first_;  ///< CSR over texels_: range of sides_
   std::vector<uint32_t> sides_;  ///< triangle * 2 + (1 if back)
+  std::vector<uint16_t> cells_;  ///< per receiver: which cells of its 4 x 4 grid count; the others are buried
 };
 
-/// Fills texels that no receiver owns: invalid ones inside charts from valid neighbours of the same chart first, then the
-/// gutters by dilation, so that bilinear look-ups never meet black. In place, any channel count, one image per page.
+/// Fills texels that no receiver owns: invalid ones inside charts from valid neighbours of the same chart
+/// first, then the gutters by dilation, so that bilinear look-ups never meet black. In place, any channel
+/// count, one image per page.
 /// @param valid  per texel of that page: 1 where `image` holds a baked value
 void fill_gaps(const Atlas& atlas, int page, const std::vector<uint8_t>& valid, Image& image);
 
-/// The scene that a package carries: instances made real, split by page and by side; twin charts as primitives of their
-/// own with flipped normals; lightmap coordinates in [0,1] as the first free TEXCOORD set, the same for all meshes.
+/// The scene that a package carries: instances made real, split by page and by side; twin charts as
+/// primitives of their own with flipped normals; lightmap coordinates in [0,1] as the first free TEXCOORD
+/// set, the same for all meshes.
 struct BakedScene {
   Scene scene;
   uint32_t lightmap_set = 0;
-  std::vector<int> pages;                ///< per instance of `scene`; -1 = no lightmap (emitters may have none)
-  std::vector<Id<Instance>> twins;       ///< per instance: its twin (same triangles, seen from behind), or none
+  std::vector<int> pages;           ///< per instance of `scene`; -1 = no lightmap (emitters may have none)
+  std::vector<Id<Instance>> twins;  ///< per instance: its twin (same triangles, seen from behind), or none
 };
 BakedScene make_baked_scene(const Scene& scene, const World& world, const Atlas& atlas);
 

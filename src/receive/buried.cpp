@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "receive/buried.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sobol.h"
+#include "receive/parameterize.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr uint32_t kPoints = 4, kRaysPerPoint = 3;  // first look
+constexpr uint32_t kRaysPerCell = 8;
+constexpr float kNear = 0.1f;           // of a texel: gaps this narrow take no light that a texel could show
+constexpr float kNearSuspicion = 0.7f;  // a wall beside a point takes half of its rays and does not bury it
+constexpr float kBuried = 0.5f;
+
+}  // namespace
+
+TexelRect texel_rect(const Atlas& atlas, uint32_t texel) {
+  const auto width = static_cast<uint32_t>(atlas.width), height = static_cast<uint32_t>(atlas.height);
+  const uint32_t in_page = texel % (width * height);
+  const Vec2 lo(static_cast<float>(in_page % width), static_cast<float>(in_page / width));
+  return {lo, lo + Vec2(1)};
+}
+
+TexelRect cell_rect(const TexelRect& texel, int cell) {
+  constexpr float kStep = 1.0f / kCells;
+  const Vec2 lo =
+      texel.lo + kStep * Vec2(static_cast<float>(cell % kCells), static_cast<float>(cell / kCells));
+  return {lo, lo + Vec2(kStep)};
+}
+
+float BurialTest::texel_length(uint32_t side) const {
+  const TexelTriangle& t = ((side & 1) != 0 ? atlas_.back : atlas_.front)[side / 2];
+  return std::sqrt(world_.area(side / 2) / std::max(std::abs(signed_area(t.uv)), 1e-6f));
+}
+
+float BurialTest::suspicion(const SurfacePoint& point, Vec2 u, float near) const {
+  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+  const Vec3 direction = glm::normalize(
+      Frame(point.geometric_normal).to_world(Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x))));
+  const Hit hit =
+      tracer_.closest({offset_origin(point.position, point.geometric_normal, direction), direction});
+  if (!hit) return 0;
+  if (hit.back && atlas_.reached_back[hit.triangle] == 0) return 1;
+  return hit.distance < near ? kNearSuspicion : 0.0f;
+}
+
+bool BurialTest::clearly_free(uint32_t texel, std::span<const uint32_t> sides) const {
+  Footprint footprint;
+  clip_to_rect(world_, atlas_, sides, texel_rect(atlas_, texel), footprint.pieces);
+  if (footprint.pieces.empty()) footprint.pieces.push_back(whole_side(world_, sides.front()));
+  finish(footprint.pieces);
+  const float near = kNear * texel_length(sides.front());
+  const uint32_t stream = mix32(texel, 0x62757279u);
+  for (uint32_t p = 0; p < kPoints; ++p) {
+    const SurfacePoint point = footprint.sample(sobol_pair(p, 0, stream));
+    for (uint32_t r = 0; r < kRaysPerPoint; ++r)
+      if (suspicion(point, sobol_pair(p * kRaysPerPoint + r, 1, stream), near) > 0) return false;
+  }
+  return true;
+}
+
+BurialTest::Verdict BurialTest::judge(uint32_t texel, std::span<const uint32_t> sides) const {
+  Verdict verdict;
+  const TexelRect rect = texel_rect(atlas_, texel);
+  const float near = kNear * texel_length(sides.front());
+  float free = 0, total = 0;
+  const auto buried = [&](Footprint& footprint, uint32_t stream) {
+    float sum = 0;
+    for (uint32_t r = 0; r < kRaysPerCell; ++r)
+      sum += suspicion(footprint.sample(sobol_pair(r, 0, stream)), sobol_pair(r, 1, stream), near);
+    return sum > kBuried * kRaysPerCell;
+  };
+  for (int cell = 0; cell < kCells * kCells; ++cell) {
+    const auto bit = static_cast<uint16_t>(1u << cell);
+    Footprint footprint;
+    clip_to_rect(world_, atlas_, sides, cell_rect(rect, cell), footprint.pieces);
+    const float area = finish(footprint.pieces);
+    if (footprint.pieces.empty() || !(area > 0)) {
+      verdict.free |= bit;
+      continue;
+    }
+    total += area;
+    if (buried(footprint, mix32(texel, 0x63656c6cu + static_cast<uint32_t>(cell)))) continue;
+    verdict.free |= bit;
+    free += area;
+  }
+  if (total > 0) {
+    verdict.free_share = free / total;
+    return verdict;
+  }
+  Footprint footprint;
+  footprint.pieces.push_back(whole_side(world_, sides.front()));
+  footprint.pieces[0].cumulative = 1;
+  if (buried(footprint, mix32(texel, 0x63656c6cu))) return {0, 0};
+  return {kAllCells, 1};
+}
+
+}  // namespace sconce

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "receive/density.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "core/parallel.h"
+#include "core/sobol.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr uint32_t kCameraPaths = 1u << 17, kLampPaths = 1u << 17;
+constexpr int kVertices = 4;           // per path: the first hit and three bounces
+constexpr uint32_t kCameraWeight = 4;  // a surface in the picture matters more than one that lights it
+constexpr double kFullDensity = 0.1;   // relative hits from which on density is full
+constexpr double kReachedBack = 0.02;  // relative hits from which on a back is lit and seen
+constexpr double kUnseen = 0.01;       // relative hits below which a triangle is kept apart from seen ones
+constexpr double kEnough = 8;          // hits expected at kFullDensity before their absence says something
+
+Vec3 cosine_direction(const Vec3& n, Vec2 u) {
+  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+  return glm::normalize(Frame(n).to_world(Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x))));
+}
+
+Vec2 triangle_point(Vec2 u) {
+  const float s = std::sqrt(u.x);
+  return {s * (1 - u.y), s * u.y};
+}
+
+Vec3 sphere_direction(Vec2 u) {
+  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+/// Emissive triangles and lamps as starting points.
+class Starts {
+ public:
+  Starts(const Scene& scene, const World& world, const MeshGraph& graph) : scene_(scene), world_(world) {
+    // Half by area, half by flux: large dim windows and small bright lamps both light what can be seen.
+    double area = 0, flux = 0;
+    std::vector<double> weights;
+    for (uint32_t t = 0; t < world.size(); ++t) {
+      const Material& material = scene[world.materials[t]];
+      if (!material.emits()) continue;
+      triangles_.push_back(t);
+      area += static_cast<double>(graph.areas[t]);
+      flux += static_cast<double>(graph.areas[t] * luminance(material.emission));
+    }
+    double sum = 0;
+    for (const uint32_t t : triangles_) {
+      const double a = static_cast<double>(graph.areas[t]);
+      const double l = static_cast<double>(luminance(scene[world.materials[t]].emission));
+      sum += 0.5 * a / area + (flux > 0 ? 0.5 * a * l / flux : 0.0);
+      cumulative_.push_back(sum);
+    }
+  }
+
+  std::size_t lamps() const { return scene_.lights.size() + (triangles_.empty() ? 0 : 1); }
+
+  /// A ray of the lamp, or one without direction.
+  Ray ray(std::size_t lamp, Vec2 u, Vec2 v, Vec2 w) const {
+    if (lamp < scene_.lights.size()) return ray_of(scene_.lights[lamp], u, v);
+    const double at = static_cast<double>(w.x) * cumulative_.back();
+    const auto it = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
+    const std::size_t i = std::min(static_cast<std::size_t>(it - cumulative_.begin()), triangles_.size() - 1);
+    const uint32_t t = triangles_[i];
+    const bool back = scene_[world_.materials[t]].double_sided && w.y < 0.5f;
+    const Vec3 n = back ? -world_.face_normals[t] : world_.face_normals[t];
+    const Vec3 direction = cosine_direction(n, v);
+    return {offset_origin(world_.position(t, triangle_point(u)), n, direction), direction};
+  }
+
+ private:
+  Ray ray_of(const Light& light, Vec2 u, Vec2 v) const {
+    const Vec3 place(light.frame[3]);
+    const Vec3 forward = normalize_or(-Vec3(light.frame[2]), Vec3(0, -1, 0));
+    const float radius = 0.51f * world_.bounds.diagonal();
+    if (std::holds_alternative<PointLight>(light.shape)) return {place, sphere_direction(u)};
+    if (const auto* spot = std::get_if<SpotLight>(&light.shape)) {
+      const float c = 1 - u.x * (1 - std::cos(std::min(spot->outer, kPi))), phi = 2 * kPi * u.y;
+      const float s = std::sqrt(std::max(0.0f, 1 - c * c));
+      return {place, glm::normalize(Frame(forward).to_world(Vec3(s * std::cos(phi), s * std::sin(phi), c)))};
+    }
+    const bool sun = std::holds_alternative<SunLight>(light.shape);
+    const Vec3 direction = sun ? forward : sphere_direction(v);
+    const float r = radius * std::sqrt(u.x), phi = 2 * kPi * u.y;
+    const Vec3 disk = Frame(direction).to_world(Vec3(r * std::cos(phi), r * std::sin(phi), -2 * radius));
+    return {world_.bounds.center() + disk, direction};
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  std::vector<uint32_t> triangles_;
+  std::vector<double> cumulative_;
+};
+
+Ray camera_ray(const Camera& camera, Vec2 u) {
+  const float h = std::tan(0.5f * camera.yfov);
+  const Vec3 d = Mat3(camera.frame) * Vec3((2 * u.x - 1) * h * camera.aspect, (1 - 2 * u.y) * h, -1);
+  return {Vec3(camera.frame[3]), normalize_or(d, Vec3(0))};
+}
+
+/// Hits per m2 of the smallest area that takes nine tenths of all hits.
+double ordinary(const std::vector<uint32_t>& hits, const MeshGraph& graph) {
+  std::vector<uint32_t> order;
+  double total = 0;
+  for (uint32_t i = 0; i < hits.size(); ++i)
+    if (hits[i] > 0) order.push_back(i), total += hits[i];
+  const auto density = [&](uint32_t i) {
+    return static_cast<double>(hits[i]) / static_cast<double>(graph.areas[i / 2]);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return std::tuple(-density(a), a) < std::tuple(-density(b), b); });
+  double sum = 0, area = 0;
+  for (const uint32_t i : order) {
+    if (sum >= 0.9 * total) break;
+    sum += hits[i];
+    area += static_cast<double>(graph.areas[i / 2]);
+  }
+  return area > 0 ? sum / area : 0.0;
+}
+
+}  // namespace
+
+Visibility probe_visibility(const Scene& scene, const World& world, const MeshGraph& graph,
+                            const Tracer& tracer, uint32_t seed, const Progress& progress) {
+  const Starts starts(scene, world, graph);
+  const std::size_t cameras = scene.cameras.size(), lamps = starts.lamps();
+  Visibility seen;
+  if (cameras + lamps == 0) {
+    // Nothing looks and nothing shines: fronts count as seen.
+    seen.hits.assign(2 * world.size(), 0);
+    for (std::size_t t = 0; t < world.size(); ++t)
+      seen.hits[2 * t] = 1u + static_cast<uint32_t>(std::min(1e3f * graph.areas[t], 1e9f));
+    seen.reference = ordinary(seen.hits, graph);
+    return seen;
+  }
+
+  // Whole numbers, so that the order of the threads does not show in the sums.
+  std::vector<std::atomic<uint32_t>> counts(2 * world.size());
+  const uint32_t camera_paths = cameras > 0 ? kCameraPaths : 0, lamp_paths = lamps > 0 ? kLampPaths : 0;
+  constexpr std::size_t kBlock = 4096;
+  const std::size_t blocks = (camera_paths + lamp_paths) / kBlock;
+  std::atomic<uint64_t> done = 0;
+  parallel_for(blocks, 1, [&](std::size_t block) {
+    progress.check();
+    for (uint32_t path = static_cast<uint32_t>(block * kBlock); path < (block + 1) * kBlock; ++path) {
+      const bool from_camera = path < camera_paths;
+      const uint32_t local = from_camera ? path : path - camera_paths;
+      const auto sources = static_cast<uint32_t>(from_camera ? cameras : lamps);
+      const uint32_t source = local % sources;
+      Sampler sampler(seed ^ 0x70726f62u, source + (from_camera ? 0u : 0x10000u), local / sources);
+      const Vec2 u = sampler.next();
+      Ray ray;
+      if (from_camera) {
+        ray = camera_ray(scene.cameras[source], u);
+      } else {
+        const Vec2 v = sampler.next();
+        ray = starts.ray(source, u, v, sampler.next());
+      }
+      if (!(glm::dot(ray.direction, ray.direction) > 0.5f)) continue;
+      for (int vertex = 0; vertex < kVertices; ++vertex) {
+        const Hit hit = tracer.closest(ray);
+        if (!hit) break;
+        counts[2 * hit.triangle + (hit.back ? 1 : 0)].fetch_add(
+            from_camera && vertex == 0 ? kCameraWeight : 1, std::memory_order_relaxed);
+        if (hit.back && !scene[world.materials[hit.triangle]].double_sided) break;  // black
+        const Vec3 n = hit.back ? -world.face_normals[hit.triangle] : world.face_normals[hit.triangle];
+        const Vec3 direction = cosine_direction(n, sampler.next());
+        ray = {offset_origin(world.position(hit.triangle, hit.barycentric), n, direction), direction};
+      }
+    }
+    progress.at("visibility", ++done, blocks);
+  });
+  seen.hits.resize(2 * world.size());
+  for (std::size_t i = 0; i < seen.hits.size(); ++i) seen.hits[i] = counts[i].load(std::memory_order_relaxed);
+  seen.reference = std::max(ordinary(seen.hits, graph), 1e-6);
+  return seen;
+}
+
+double Visibility::relative(const MeshGraph& graph, const Patch& patch, bool back) const {
+  double sum = 0, area = 0;
+  for (const uint32_t t : patch) {
+    sum += hits[2 * t + (back ? 1 : 0)];
+    area += static_cast<double>(graph.areas[t]);
+  }
+  return area > 0 ? sum / (area * reference) : 0.0;
+}
+
+float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch& patch, bool back,
+                    float least) {
+  double area = 0;
+  for (const uint32_t t : patch) area += static_cast<double>(graph.areas[t]);
+  const double doubt = 1.0 / std::max(1e-30, area * seen.reference);  // one hit more than was counted
+  const double relative = seen.relative(graph, patch, back) + doubt;
+  return std::clamp(static_cast<float>(std::sqrt(relative / kFullDensity)), least, 1.0f);
+}
+
+bool back_is_reached(const Visibility& seen, const MeshGraph& graph, const Patch& patch) {
+  return seen.relative(graph, patch, true) > kReachedBack;
+}
+
+std::vector<uint8_t> unseen_triangles(const Visibility& seen, const MeshGraph& graph) {
+  std::vector<uint8_t> result(graph.size(), 0);
+  for (std::size_t t = 0; t < graph.size(); ++t) {
+    const double ordinary_hits = static_cast<double>(graph.areas[t]) * seen.reference;
+    result[t] = ordinary_hits * kFullDensity >= kEnough && seen.hits[2 * t] < kUnseen * ordinary_hits ? 1 : 0;
+  }
+  return result;
+}
+
+}  // namespace sconce
