@@ -77,6 +77,7 @@ struct Instance {
   std::string group_name;    ///< group asked for by the file ("" = none); see scene/groups.h
   Id<LightGroup> group;      ///< assigned by assign_groups(); meaningful where the material emits
   float lightmap_scale = 1;  ///< extras.lightmap_scale: multiplies texel density
+  std::string light_name;    ///< extras.light: what this single lamp is called ("" = by its node)
 };
 
 struct PointLight {
@@ -100,6 +101,7 @@ struct Light {
   std::variant<PointLight, SpotLight, SunLight, SkyLight> shape;
   std::string group_name;
   Id<LightGroup> group;
+  std::string light_name;  ///< extras.light, as for instances
 };
 
 struct Camera {
