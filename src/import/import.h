@@ -11,8 +11,9 @@
 
 namespace sconce {
 
-/// A scene file by its format (tried in order; "not mine" is not "broken"), then its side file NAME.toml beside it, then
-/// validate(). Groups are not yet assigned (scene/groups.h). Missing meshes and textures are warnings that name them.
+/// A scene file by its format (tried in order; "not mine" is not "broken"), then its side file NAME.toml
+/// beside it, then validate(). Groups are not yet assigned (scene/groups.h). Missing meshes and textures are
+/// warnings that name them.
 /// @throws Error: one line, file and place
 Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
 
@@ -21,8 +22,8 @@ Scene import_gltf(const std::filesystem::path& path, const Progress& progress = 
 /// OBJ + MTL through assimp. @throws NotMyFormat, Error
 Scene import_obj(const std::filesystem::path& path, const Progress& progress = {});
 
-/// `kitchen.toml` of `kitchen.glb`: adds or overrides lights, groups, emission, cameras, sky. Unknown keys are errors
-/// with file:line. The [options] table is the command line's business and ignored here.
+/// `kitchen.toml` of `kitchen.glb`: adds or overrides lights, groups, emission, cameras, sky. Unknown keys
+/// are errors with file:line. The [options] table is the command line's business and ignored here.
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress = {});
 
 /// Files besides `path` that the scene was read from (buffers, textures, side file), for content hashes.

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/error.h"
+#include "import/gltf_parts.h"
+
+namespace sconce {
+
+namespace {
+
+/// Position and direction without the node's scale: KHR_lights_punctual says that scale does not touch lamps.
+Mat4 rigid(const Mat4& m) {
+  const Vec3 z = normalize_or(Vec3(m[2]), Vec3(0, 0, 1));
+  const Vec3 x = normalize_or(glm::cross(Vec3(m[1]), z), Frame(z).x);
+  Mat4 out(1.0f);
+  out[0] = glm::vec4(x, 0);
+  out[1] = glm::vec4(glm::cross(z, x), 0);
+  out[2] = glm::vec4(z, 0);
+  out[3] = glm::vec4(Vec3(m[3]), 1);
+  return out;
+}
+
+}  // namespace
+
+Light read_gltf_light(const GltfSource& source, int index, const GltfNode& node, const std::string& place) {
+  const tinygltf::Light& l = element(source, source.model.lights, index, place);
+  const std::string here = "lights[" + std::to_string(index) + "]";
+  Light out;
+  out.name = !node.name.empty() ? node.name : l.name;
+  out.light_name = !node.light_name.empty() ? node.light_name : extra_string(l.extras, "light");
+  out.frame = rigid(node.transform);
+  out.group_name = !node.light_group.empty() ? node.light_group : extra_string(l.extras, "light_group");
+  out.intensity = Rgb(static_cast<float>(l.intensity));
+  if (const auto c = numbers(source, l.color, 3, here + ".color"))
+    out.intensity *=
+        Rgb(static_cast<float>((*c)[0]), static_cast<float>((*c)[1]), static_cast<float>((*c)[2]));
+  if (l.range < 0) throw Error(source.at(here + ".range"), "is negative", "metres, or absent for no limit");
+  const auto range = static_cast<float>(l.range);
+  if (l.type == "point") {
+    out.shape = PointLight{range};
+  } else if (l.type == "spot") {
+    SpotLight spot{static_cast<float>(l.spot.innerConeAngle), static_cast<float>(l.spot.outerConeAngle),
+                   range};
+    if (!(spot.inner >= 0 && spot.inner <= spot.outer && spot.outer > 0 && spot.outer <= kPi / 2 + 1e-5f))
+      throw Error(source.at(here + ".spot"), "cone angles are out of range", "0 <= inner < outer <= pi/2");
+    out.shape = spot;
+  } else if (l.type == "directional") {
+    out.shape = SunLight{};
+  } else {
+    throw Error(source.at(here + ".type"), "'" + l.type + "' is unknown", "point, spot, directional");
+  }
+  return out;
+}
+
+}  // namespace sconce

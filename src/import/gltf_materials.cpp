@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/gltf_parts.h"
+#include "import/gltf_textures.h"
+
+namespace sconce {
+
+namespace {
+
+Rgb color(const std::vector<double>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+Vec2 pair_of(const tinygltf::Value& object, const char* key, Vec2 otherwise) {
+  if (!object.Has(key) || object.Get(key).ArrayLen() != 2) return otherwise;
+  const tinygltf::Value &x = object.Get(key).Get(0), &y = object.Get(key).Get(1);
+  if (!x.IsNumber() || !y.IsNumber()) return otherwise;
+  return {static_cast<float>(x.GetNumberAsDouble()), static_cast<float>(y.GetNumberAsDouble())};
+}
+
+TextureUse texture_use(GltfTextures& textures, const tinygltf::TextureInfo& info, const std::string& place) {
+  TextureUse use;
+  if (info.index < 0) return use;
+  use.texture = textures.load(info.index, place);
+  use.texcoord = static_cast<uint32_t>(std::max(0, info.texCoord));
+  if (const tinygltf::Value* t = extension(info.extensions, "KHR_texture_transform")) {
+    use.offset = pair_of(*t, "offset", use.offset);
+    use.scale = pair_of(*t, "scale", use.scale);
+    use.rotation = static_cast<float>(number_of(*t, "rotation", 0));
+    use.texcoord = static_cast<uint32_t>(std::max(0.0, number_of(*t, "texCoord", use.texcoord)));
+  }
+  return use;
+}
+
+Material read_material(const GltfSource& source, const tinygltf::Material& m, GltfTextures& textures,
+                       const std::string& place, const Progress& progress) {
+  Material out;
+  out.name = m.name;
+  const tinygltf::PbrMetallicRoughness& pbr = m.pbrMetallicRoughness;
+  if (const auto base = numbers(source, pbr.baseColorFactor, 4, place + ".baseColorFactor")) {
+    out.base_color = color(*base);
+    out.alpha = static_cast<float>(base->at(3));
+  }
+  out.metallic = static_cast<float>(pbr.metallicFactor);
+  out.roughness = static_cast<float>(pbr.roughnessFactor);
+  out.base_color_texture = texture_use(textures, pbr.baseColorTexture, place + ".baseColorTexture");
+  if (pbr.baseColorTexture.index >= 0 && !out.base_color_texture.texture)
+    out.base_color *= kMissingTextureGrey;
+  if (out.metallic > 0)
+    out.metallic_roughness_texture =
+        texture_use(textures, pbr.metallicRoughnessTexture, place + ".metallicRoughness");
+
+  if (const auto emission = numbers(source, m.emissiveFactor, 3, place + ".emissiveFactor"))
+    out.emission = color(*emission);
+  if (const tinygltf::Value* e = extension(m.extensions, "KHR_materials_emissive_strength"))
+    out.emission *= static_cast<float>(number_of(*e, "emissiveStrength", 1));
+  if (out.emits())
+    out.emission_texture = texture_use(textures, m.emissiveTexture, place + ".emissiveTexture");
+
+  if (m.alphaMode == "MASK") {
+    out.alpha_mode = Material::Alpha::mask;
+  } else if (m.alphaMode == "BLEND") {
+    out.alpha_mode = Material::Alpha::blend;
+    progress.warn(source.path.string() + ": material '" + m.name + "' blends; it is treated as opaque");
+  }
+  out.alpha_cutoff = static_cast<float>(m.alphaCutoff);
+  out.double_sided = m.doubleSided;
+  if (extension(m.extensions, "KHR_materials_unlit") != nullptr)
+    out.metallic = 0;  // its colour is all it says
+  return out;
+}
+
+}  // namespace
+
+void read_gltf_materials(const GltfSource& source, Scene& scene, const Progress& progress) {
+  GltfTextures textures(source, scene, progress);
+  for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
+    progress.check();
+    progress.at("materials", i, source.model.materials.size());
+    const std::string place = "materials[" + std::to_string(i) + "]";
+    scene.materials.push_back(read_material(source, source.model.materials[i], textures, place, progress));
+  }
+}
+
+}  // namespace sconce
