@@ -9,13 +9,18 @@ namespace sconce {
 Image mix_page(const Package& package, const MixSpec& mix, int page);
 std::vector<Image> mix_pages(const Package& package, const MixSpec& mix);
 
-/// What automatic exposure and the curves that need it are metered on: the mixed lightmap, never the picture, so that
-/// CPU, GL and web agree and orbiting does not flicker (contract.md, "Exposure").
+/// What automatic exposure and the curves that need it are metered on: the mixed lightmap, never the picture,
+/// so that CPU, GL and web agree and orbiting does not flicker (contract.md, "Exposure").
 struct Metering {
-  double log_mean = 0;   ///< exp of the weighted mean of ln(L + 1e-4), L = luminance of rho/pi * sum w E, cd/m2
-  double maximum = 0;    ///< weighted 99.9th percentile of L, visible emitters included, cd/m2
+  double log_mean =
+      0;               ///< exp of the weighted mean of ln(L + 1e-4), L = luminance of rho/pi * sum w E, cd/m2
+  double maximum = 0;  ///< weighted 99.9th percentile of L, visible emitters included, cd/m2
 };
+/// @param scene  package.scene(): its emitters count for the maximum, by area, with emission at triangle
+/// centres
 /// @param mixed  the pages of mix_pages()
+Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, std::span<const Image> mixed);
+/// The same; reads the scene itself.
 Metering meter(const Package& package, const MixSpec& mix, std::span<const Image> mixed);
 
 }  // namespace sconce

@@ -21,7 +21,8 @@ struct GroupInfo {
   std::string name;
   double lumens = 0;  ///< luminous flux at unit weight; 0 for sky and sun
   Rgb color{1.0f};    ///< flux-weighted colour, luminance 1 (contract.md, "Colour")
-  /// Largest relative channel difference of a lamp's colour from `color`; 0 = one colour, negative = not known.
+  /// Largest relative channel difference of a lamp's colour from `color`; 0 = one colour, negative = not
+  /// known.
   double color_spread = 0;
   bool infinite = false;  ///< sky or sun: has no lumens
   double mean_lux = 0;    ///< area-weighted mean of the layer's luminance

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "mix/mix.h"
+#include "scene/world.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr double kDelta = 1e-4;  // cd/m2, contract.md, "Exposure"
+constexpr double kPercentile = 0.999;
+
+/// Weighted luminances by size. A sixty-fourth of a stop per bin; each bin keeps its largest member, so few
+/// values come back exactly.
+class Histogram {
+ public:
+  void add(float luminance, double weight) {
+    Bin& bin = bins_[index(luminance)];
+    bin.weight += weight;
+    bin.largest = std::max(bin.largest, luminance);
+    total_ += weight;
+  }
+  void add(const Histogram& other) {
+    for (std::size_t i = 0; i < bins_.size(); ++i) {
+      bins_[i].weight += other.bins_[i].weight;
+      bins_[i].largest = std::max(bins_[i].largest, other.bins_[i].largest);
+    }
+    total_ += other.total_;
+  }
+  double percentile(double share) const {
+    double below = 0;
+    for (const Bin& bin : bins_) {
+      below += bin.weight;
+      if (bin.weight > 0 && below >= share * total_) return bin.largest;
+    }
+    return 0;
+  }
+
+ private:
+  static constexpr int kPerStop = 64, kLowest = -40, kHighest = 40;
+  static std::size_t index(float luminance) {
+    if (!(luminance > 0)) return 0;
+    const float stop =
+        std::clamp(std::log2(luminance), static_cast<float>(kLowest), static_cast<float>(kHighest));
+    return static_cast<std::size_t>((stop - kLowest) * kPerStop) + 1;
+  }
+
+  struct Bin {
+    double weight = 0;
+    float largest = 0;
+  };
+  std::vector<Bin> bins_ = std::vector<Bin>((kHighest - kLowest) * kPerStop + 2);
+  double total_ = 0;
+};
+
+struct Sums {
+  double log_sum = 0, weight = 0;
+  Histogram histogram;
+
+  void add(const Sums& other) {
+    log_sum += other.log_sum;
+    weight += other.weight;
+    histogram.add(other.histogram);
+  }
+};
+
+// Bands of rows are summed apart and folded in order: the same bits with any number of threads.
+Sums meter_page(const Image& receivers, const Image& mixed) {
+  constexpr std::size_t kBand = 64;
+  const auto height = static_cast<std::size_t>(mixed.height), width = static_cast<std::size_t>(mixed.width);
+  std::vector<Sums> bands((height + kBand - 1) / kBand);
+  parallel_for(bands.size(), 1, [&](std::size_t band) {
+    Sums& sums = bands[band];
+    for (std::size_t i = band * kBand * width; i < std::min(height, (band + 1) * kBand) * width; ++i) {
+      const float* r = &receivers.data[i * 4];
+      const float* e = &mixed.data[i * 3];
+      if (!(r[3] > 0)) continue;
+      const float l = std::max(0.0f, luminance(Rgb(r[0], r[1], r[2]) * Rgb(e[0], e[1], e[2])) * kInvPi);
+      const auto weight = static_cast<double>(r[3]);
+      sums.log_sum += weight * std::log(static_cast<double>(l) + kDelta);
+      sums.weight += weight;
+      sums.histogram.add(l, weight);
+    }
+  });
+  Sums total;
+  for (const Sums& band : bands) total.add(band);
+  return total;
+}
+
+void add_emitters(const Scene& scene, const MixSpec& mix, Histogram& histogram) {
+  for (const Instance& instance : scene.instances) {
+    if (!scene.emits(instance)) continue;
+    const Mesh& mesh = scene[instance.mesh];
+    const Material& material = scene[mesh.material];
+    const Rgb weight = instance.group ? mix.weights.at(instance.group.value) : Rgb(1);
+    const TextureUse& use = material.emission_texture;
+    const bool textured = use.texture.valid() && use.texcoord < mesh.texcoords.size();
+    for (const Triangle& t : mesh.triangles) {
+      Vec3 p[3];
+      Vec2 uv(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = Vec3(instance.transform * glm::vec4(mesh.positions[t.v[k]], 1.0f));
+        if (textured) uv += mesh.texcoords[use.texcoord][t.v[k]] / 3.0f;
+      }
+      const float area = 0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+      Rgb emission = material.emission;
+      if (textured) emission *= sample_texture(scene, use, uv, true).rgb;
+      if (area > 0 && !weight.is_black())
+        histogram.add(luminance(weight * emission), static_cast<double>(area));
+    }
+  }
+}
+
+}  // namespace
+
+Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, std::span<const Image> mixed) {
+  if (mixed.size() != static_cast<std::size_t>(package.manifest().pages))
+    throw Error(package.path().string(), "the mix has another number of pages than the package");
+  Sums sums;
+  for (std::size_t page = 0; page < mixed.size(); ++page)
+    sums.add(meter_page(package.receivers(static_cast<int>(page)), mixed[page]));
+  add_emitters(scene, mix, sums.histogram);
+  Metering metering;
+  metering.log_mean = sums.weight > 0 ? std::exp(sums.log_sum / sums.weight) : kDelta;
+  metering.maximum = sums.histogram.percentile(kPercentile);
+  return metering;
+}
+
+Metering meter(const Package& package, const MixSpec& mix, std::span<const Image> mixed) {
+  return meter(package, package.scene(), mix, mixed);
+}
+
+}  // namespace sconce

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mix/preset.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "package/test_package.h"
+
+namespace sconce {
+namespace {
+
+TEST(Preset, KeepsTheFilesOrder) {
+  const TemporaryFolder folder;
+  write_file(folder / "evening.toml",
+             "exposure = 1\ntone = \"drago\"\ncamera = \"main\"\nothers = \"off\"\n"
+             "[mix]\n\"lamp*\" = 0.25\nceiling = \"0.5,2700K\"\n\"a b\" = 2\n");
+  const Preset preset = read_preset(folder / "evening.toml");
+  EXPECT_EQ(preset.assignments, (std::vector<std::string>{"lamp*=0.25", "ceiling=0.5,2700K", "a b=2"}));
+  EXPECT_EQ(preset.others, "off");
+  EXPECT_EQ(preset.exposure, "1");
+  EXPECT_EQ(preset.tone, "drago");
+  EXPECT_EQ(preset.camera, "main");
+}
+
+TEST(Preset, OthersInsideMix) {
+  const TemporaryFolder folder;
+  write_file(folder / "p.toml", "[mix]\nothers = \"off\"\nz = 1\n");
+  EXPECT_EQ(read_preset(folder / "p.toml").others, "off");
+  EXPECT_EQ(read_preset(folder / "p.toml").assignments, std::vector<std::string>{"z=1"});
+}
+
+TEST(Preset, BadFilesNameFileAndLine) {
+  const TemporaryFolder folder;
+  const auto error = [&](const char* text) -> std::string {
+    write_file(folder / "p.toml", text);
+    try {
+      read_preset(folder / "p.toml");
+    } catch (const UsageError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(error("\n\nmixx = 1\n").find("p.toml:3: unknown key 'mixx'"), std::string::npos);
+  EXPECT_NE(error("mix = 1\n").find("p.toml:1"), std::string::npos);
+  EXPECT_NE(error("[mix]\na = [1]\n").find("p.toml:2: 'a'"), std::string::npos);
+  EXPECT_NE(error("[mix\n").find("p.toml:1"), std::string::npos);
+  EXPECT_THROW(read_preset(folder / "absent.toml"), Error);
+}
+
+}  // namespace
+}  // namespace sconce
