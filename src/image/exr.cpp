@@ -36,8 +36,11 @@ constexpr float kLargestHalf = 65504.0f;
 const std::set<std::string, std::less<>> kLayoutAttributes{"name", "type", "view", "pixelAspectRatio",
                                                            "screenWindowWidth"};
 
+/// A library's message on one line, without the stream's name before it.
 std::string one_line(const char* what) {
   std::string text = what;
+  const std::string_view stream = "\"memory\". ";
+  if (const auto at = text.find(stream); at != std::string::npos) text.erase(0, at + stream.size());
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();

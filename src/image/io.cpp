@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "image/hdr.h"
 #include "image/ldr.h"
 #include "image/primaries.h"
 

@@ -27,7 +27,8 @@ void write_exr(const std::filesystem::path& path, const Image& image, PixelType 
 /// NotMyFormat, Error
 Image8 decode_image8(std::span<const unsigned char> bytes, const std::string& where, int channels = 0);
 
-/// Radiance .hdr file, RGB float, relative units as stored. @throws NotMyFormat, Error
+/// Radiance .hdr file: RGB float in the file's own radiance unit (stored values / EXPOSURE). @throws
+/// NotMyFormat, Error
 Image read_hdr(const std::filesystem::path& path);
 
 /// .exr, .hdr or an 8-bit picture decoded from sRGB to linear, by content. R, G, B come in Rec. 709 whatever

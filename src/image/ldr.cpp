@@ -7,6 +7,8 @@
 #define STBI_NO_PSD
 #define STBI_NO_PIC
 #define STBI_NO_PNM
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
 #include <stb/stb_image.h>
 
 #include <cmath>
@@ -14,7 +16,6 @@
 #include <memory>
 
 #include "core/error.h"
-#include "core/files.h"
 #include "image/io.h"
 #include "image/ldr.h"
 
@@ -81,30 +82,6 @@ Image decode_linear(std::span<const unsigned char> bytes, const std::string& whe
     if (alpha) to[3] = static_cast<float>(from[3]) / 65535.0f;
   }
   return image;
-}
-
-Image decode_hdr(std::span<const unsigned char> bytes, const std::string& where) {
-  if (!starts_with(bytes, "#?RADIANCE") && !starts_with(bytes, "#?RGBE"))
-    throw NotMyFormat(where, "is not a Radiance picture");
-  Image image;
-  int channels = 0;
-  const bool sane =
-      bytes.size() < (1u << 31) && stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()),
-                                                         &image.width, &image.height, &channels) != 0;
-  // Run-length coding reaches 127 bytes in 2.
-  if (!sane || 4.0 * image.width * image.height > 1e6 + 128.0 * static_cast<double>(bytes.size()))
-    throw Error(where, "damaged or unsupported Radiance picture");
-  const StbPixels<float> pixels(stbi_loadf_from_memory(bytes.data(), static_cast<int>(bytes.size()),
-                                                       &image.width, &image.height, &channels, 3));
-  if (!pixels) throw Error(where, std::string("damaged Radiance picture: ") + stbi_failure_reason());
-  image = Image::rgb(image.width, image.height);
-  std::copy_n(pixels.get(), image.data.size(), image.data.begin());
-  return image;
-}
-
-Image read_hdr(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  return decode_hdr({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, path.string());
 }
 
 }  // namespace sconce

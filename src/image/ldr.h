@@ -12,8 +12,4 @@ namespace sconce {
 /// @throws NotMyFormat, Error
 Image decode_linear(std::span<const unsigned char> bytes, const std::string& where);
 
-/// Radiance RGBE: mantissa / 256 * 2^(e - 128), without the half step that Radiance's own reader adds (0.2 %
-/// darker in the mean); EXPOSURE lines are ignored. @throws NotMyFormat, Error
-Image decode_hdr(std::span<const unsigned char> bytes, const std::string& where);
-
 }  // namespace sconce

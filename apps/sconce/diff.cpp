@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "image/io.h"
+#include "image/metrics.h"
+#include "image/primaries.h"
+#include "table.h"
+
+namespace sconce::app {
+
+namespace {
+
+struct Inputs {
+  Image a, b;
+  std::optional<Image> second, mask;
+};
+
+bool has_rgb(const Image& image) {
+  return image.channel("R") >= 0 && image.channel("G") >= 0 && image.channel("B") >= 0;
+}
+
+/// Colours are compared as colours (an alpha beside them is no colour); files with the same other channels as
+/// they are.
+Inputs read_inputs(const std::string& a, const std::string& b, const std::string& second,
+                   const std::string& mask) {
+  Inputs in;
+  in.a = read_image(a);
+  in.b = read_image(b);
+  if (!second.empty()) in.second = read_image(second);
+  if (!mask.empty()) in.mask = read_image(mask);
+  const bool as_they_are = !has_rgb(in.a) && in.a.channels == in.b.channels &&
+                           (!in.second || in.second->channels == in.b.channels);
+  if (!as_they_are) {
+    in.a = rgb_part(in.a, a);
+    in.b = rgb_part(in.b, b);
+    if (in.second) in.second = rgb_part(*in.second, second);
+  }
+  return in;
+}
+
+std::string text_of(const Comparison& all, const RelativeRmse& boxes, const Image& a) {
+  Table table({{"figure"}, {"value", Table::Align::right}, {"of"}});
+  const auto number = [](double v) { return fmt::format("{:.6g}", v); };
+  const std::string pixels = fmt::format("{}x{} pixels", a.width, a.height);
+  table.add({"mse", number(all.mse), pixels});
+  table.add({"relmse", number(all.relmse), pixels});
+  table.add({"max", number(all.max), pixels});
+  table.add({"mean ratio", number(boxes.mean_ratio), fmt::format("{} kept pixels", boxes.kept_pixels)});
+  table.add({"rmse", fmt::format("{:.4g}%", 100 * boxes.rmse),
+             fmt::format("{} kept boxes, reference noise {:.3g}% taken off", boxes.kept, 100 * boxes.noise)});
+  std::string text = table.text();
+  if (all.not_finite > 0) text += fmt::format("  {} pixels are not finite\n", all.not_finite);
+  return text;
+}
+
+nlohmann::json json_of(const Comparison& all, const RelativeRmse& boxes, const Image& a) {
+  return {{"width", a.width},
+          {"height", a.height},
+          {"mse", all.mse},
+          {"relmse", all.relmse},
+          {"max", all.max},
+          {"rmse", boxes.rmse},
+          {"reference_noise", boxes.noise},
+          {"mean_ratio", boxes.mean_ratio},
+          {"kept_boxes", boxes.kept},
+          {"kept_pixels", boxes.kept_pixels},
+          {"not_finite", all.not_finite}};
+}
+
+}  // namespace
+
+int run_diff(int argc, const char* const* argv) {
+  std::string a, b, metric = "relmse", output, second, mask;
+  double limit = std::numeric_limits<double>::infinity();
+  Options options(
+      "diff", "How far picture A is from reference B (.exr, .hdr, .png, .jpg; compared in linear light).");
+  options.positional("A", &a, "picture that is judged");
+  options.positional("B", &b, "reference");
+  options.option("--metric", &metric,
+                 "what --fail-above looks at: mse, relmse (squared error over squared reference), max, rmse "
+                 "(relative, of "
+                 "4x4 box means, reference noise taken off)");
+  options.option("--fail-above", &limit,
+                 "exit with 3 when the metric is above this or not a number; accepts 2%");
+  options.option("--reference2", &second,
+                 "second, independent rendering of B: gives the noise of the reference");
+  options.option("--mask", &mask,
+                 "coverage of visible emitters: pixels above 0 and their neighbours do not count in "
+                 "rmse and mean ratio");
+  options.option("-o,--output", &output, "PNG of the error in false colour, worst 1% of boxes framed");
+  if (const auto code = options.parse(argc, argv)) return *code;
+  if (metric != "mse" && metric != "relmse" && metric != "max" && metric != "rmse")
+    throw UsageError("--metric", "unknown metric '" + metric + "'", "mse, relmse, max, rmse");
+
+  const ThreadLimit threads(options.threads);
+  const Inputs in = read_inputs(a, b, second, mask);
+  const Image* kept = in.mask ? &*in.mask : nullptr;
+  const Comparison all = compare(in.a, in.b);
+  const RelativeRmse boxes = relative_rmse(in.a, in.b, in.second ? &*in.second : nullptr, kept);
+  if (!output.empty()) write_png(output, error_picture(in.a, in.b, kept, boxes.boxes));
+
+  const double value = metric == "mse"      ? all.mse
+                       : metric == "relmse" ? all.relmse
+                       : metric == "max"    ? all.max
+                                            : boxes.rmse;
+  const bool differs = std::isfinite(limit) && !(value <= limit);
+  if (options.json) {
+    nlohmann::json json = json_of(all, boxes, in.a);
+    json["metric"] = metric;
+    json["differs"] = differs;
+    fmt::print("{}\n", json.dump(2));
+  } else if (!options.quiet) {
+    fmt::print("{}", text_of(all, boxes, in.a));
+    if (differs) fmt::print("  {} {:.6g} is above {:.6g}\n", metric, value, limit);
+  }
+  return differs ? kDiffers : kDone;
+}
+
+}  // namespace sconce::app
