@@ -90,9 +90,20 @@ Sums meter_page(const Image& receivers, const Image& mixed) {
   return total;
 }
 
-void add_emitters(const Scene& scene, const MixSpec& mix, Histogram& histogram) {
-  for (const Instance& instance : scene.instances) {
-    if (!scene.emits(instance)) continue;
+// Twins repeat the triangles of their front, which counts both sides; a View's scene has none.
+std::vector<bool> find_twins(const Scene& scene, const Manifest& m) {
+  std::vector<bool> twins(scene.instances.size(), false);
+  if (twins.size() != m.instance_twins.size()) return twins;
+  for (const int twin : m.instance_twins)
+    if (twin >= 0) twins[static_cast<std::size_t>(twin)] = true;
+  return twins;
+}
+
+void add_emitters(const Scene& scene, const Manifest& m, const MixSpec& mix, Histogram& histogram) {
+  const std::vector<bool> twins = find_twins(scene, m);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (twins[i] || !scene.emits(instance)) continue;
     const Mesh& mesh = scene[instance.mesh];
     const Material& material = scene[mesh.material];
     const Rgb weight = instance.group ? mix.weights.at(instance.group.value) : Rgb(1);
@@ -109,7 +120,8 @@ void add_emitters(const Scene& scene, const MixSpec& mix, Histogram& histogram) 
       Rgb emission = material.emission;
       if (textured) emission *= sample_texture(scene, use, uv, true).rgb;
       if (area > 0 && !weight.is_black())
-        histogram.add(luminance(weight * emission), static_cast<double>(area));
+        histogram.add(luminance(weight * emission),
+                      static_cast<double>(material.double_sided ? 2 * area : area));
     }
   }
 }
@@ -122,7 +134,7 @@ Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, s
   Sums sums;
   for (std::size_t page = 0; page < mixed.size(); ++page)
     sums.add(meter_page(package.receivers(static_cast<int>(page)), mixed[page]));
-  add_emitters(scene, mix, sums.histogram);
+  add_emitters(scene, package.manifest(), mix, sums.histogram);
   Metering metering;
   metering.log_mean = sums.weight > 0 ? std::exp(sums.log_sum / sums.weight) : kDelta;
   metering.maximum = sums.histogram.percentile(kPercentile);

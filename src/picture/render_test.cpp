@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture/render.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "package/test_package.h"
+
+namespace sconce {
+namespace {
+
+class Picture : public testing::Test {
+ protected:
+  Package write(const PackageContents& contents) {
+    write_package(folder_ / "x.sconce", contents);
+    return Package::open(folder_ / "x.sconce");
+  }
+  /// All groups at `weight`, seen by the scene's first camera, square.
+  Image render(const PackageContents& contents, float weight = 1, int size = 16, Image* coverage = nullptr) {
+    const Package package = write(contents);
+    const View view(package);
+    const MixSpec mix{std::vector<Rgb>(contents.manifest.groups.size(), Rgb(weight))};
+    PictureParams params;
+    params.width = params.height = size;
+    return view.render(view.camera(""), mix, mix_pages(package, mix), params, {}, coverage);
+  }
+  TemporaryFolder folder_;
+};
+
+PackageContents constant(float lux) {
+  PackageContents c = test_package(1, 1, 8, 8);
+  for (float& v : c.layers[0][0].data) v = lux;
+  return c;
+}
+
+/// Another quad in front of the grey one, nearer to the camera.
+Instance& add_quad(PackageContents& c, const Material& material, float z, bool flipped) {
+  c.scene.materials.push_back(material);
+  c.scene.meshes.push_back(test_quad("quad2", Id<Material>(c.scene.materials.size() - 1), z, flipped));
+  Instance instance;
+  instance.name = "quad2";
+  instance.mesh = Id<Mesh>(c.scene.meshes.size() - 1);
+  instance.group = Id<LightGroup>(0);
+  c.scene.instances.push_back(instance);
+  c.manifest.instance_pages.push_back(-1);
+  c.manifest.instance_twins.push_back(-1);
+  return c.scene.instances.back();
+}
+
+void expect_all(const Image& image, const Rgb& expected) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      EXPECT_NEAR(image.rgb_at(x, y).r, expected.r, 1e-5f * expected.r + 1e-7f) << x << ", " << y;
+      EXPECT_NEAR(image.rgb_at(x, y).g, expected.g, 1e-5f * expected.g + 1e-7f) << x << ", " << y;
+      EXPECT_NEAR(image.rgb_at(x, y).b, expected.b, 1e-5f * expected.b + 1e-7f) << x << ", " << y;
+    }
+}
+
+TEST_F(Picture, EvenLightOnAnEvenWall) {
+  expect_all(render(constant(100)), Rgb(0.5f * kInvPi * 100));
+  expect_all(render(constant(100), 0.25f), Rgb(0.5f * kInvPi * 25));
+}
+
+TEST_F(Picture, MetalsReflectNoDiffuseLight) {
+  PackageContents c = constant(100);
+  c.scene.materials[0].metallic = 0.75f;
+  expect_all(render(c), Rgb(0.25f * 0.5f * kInvPi * 100));
+}
+
+TEST_F(Picture, TextureTimesLight) {
+  PackageContents c = constant(100);
+  Texture red;
+  red.pixels = {1, 1, 3, {255, 0, 128}};
+  c.scene.textures = {red};
+  c.scene.materials[0].base_color_texture.texture = Id<Texture>(0);
+  expect_all(render(c), 50 * kInvPi * Rgb(1, 0, srgb_to_linear(128 / 255.0f)));
+}
+
+// The layer is linear in x and y, so bilinear look-ups between its texel centres give it back.
+TEST_F(Picture, LightmapIsLookedUpBilinearly) {
+  const PackageContents c = test_package(1, 1, 8, 8);
+  const Image picture = render(c, 1, 64);
+  // The camera, 2 m away, sees 4 tan(0.25) = 1.0214 m of the quad's 2 m.
+  const float seen = 4 * std::tan(0.25f);
+  for (int y = 0; y < 64; y += 9)
+    for (int x = 0; x < 64; x += 9) {
+      const auto texel = [&](int p) {
+        return (0.5f + seen / 2 * ((static_cast<float>(p) + 0.5f) / 64 - 0.5f)) * 8 - 0.5f;
+      };
+      const float e = 1 + texel(x) / 8 + texel(y) / 16;
+      EXPECT_NEAR(picture.rgb_at(x, y).r, 0.5f * kInvPi * e, 2e-4f);
+    }
+}
+
+TEST_F(Picture, EmittersFollowTheirFaderAndShineFromTheFrontOnly) {
+  Material lamp;
+  lamp.emission = {10, 20, 4000};
+  lamp.base_color = Rgb(0);
+  PackageContents c = constant(100);
+  add_quad(c, lamp, 1, false);
+  Image coverage;
+  expect_all(render(c, 0.5f, 16, &coverage), {5, 10, 2000});
+  for (const float v : coverage.data) EXPECT_EQ(v, 1);
+
+  PackageContents back = constant(100);
+  add_quad(back, lamp, 1, true);
+  expect_all(render(back, 0.5f, 16, &coverage), Rgb(0));
+  for (const float v : coverage.data) EXPECT_EQ(v, 0);
+  lamp.double_sided = true;
+  PackageContents both = constant(100);
+  add_quad(both, lamp, 1, true);
+  expect_all(render(both, 0.5f), {5, 10, 2000});
+}
+
+TEST_F(Picture, BacksAreBlack) {
+  PackageContents c = constant(100);
+  c.scene.meshes[0] = test_quad("quad", Id<Material>(0), 0, true);
+  expect_all(render(c), Rgb(0));
+  c.scene.materials[0].double_sided = true;
+  expect_all(render(c), Rgb(0));
+}
+
+// Front and back of a sheet have their own halves of the page: 100 lux above, 10 below with a gradient along
+// x.
+TEST_F(Picture, TwinIsSeenFromBehind) {
+  PackageContents c = test_package(1, 1, 8, 8);
+  Image& layer = c.layers[0][0];
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) layer.set_rgb(x, y, y < 4 ? Rgb(100) : Rgb(10 + static_cast<float>(x), 0, 0));
+  Material sheet = c.scene.materials[0];
+  sheet.double_sided = true;
+  c.scene.materials[0] = sheet;
+  c.scene.meshes[0] = test_quad("sheet", Id<Material>(0), 0, true);
+  c.scene.meshes.push_back(test_quad("sheet", Id<Material>(0), 0, false));
+  // The twin's triangles stand in the order of the front's, its corners in another.
+  c.scene.meshes[1].triangles = {{{1, 2, 0}}, {{3, 0, 2}}};
+  for (Vec2& uv : c.scene.meshes[0].texcoords[1]) uv.y *= 0.5f;
+  for (Vec2& uv : c.scene.meshes[1].texcoords[1]) uv.y = 0.75f;
+  Instance twin = c.scene.instances[0];
+  twin.mesh = Id<Mesh>(1);
+  c.scene.instances.push_back(twin);
+  c.manifest.instance_pages = {0, 0};
+  c.manifest.instance_twins = {1, -1};
+  const Package package = write(c);
+  const View view(package);
+  EXPECT_EQ(view.world().size(), 2u);
+  const MixSpec mix{{Rgb(1)}};
+  PictureParams params;
+  params.width = params.height = 32;
+  const std::vector<Image> pages = mix_pages(package, mix);
+  const Image behind = view.render(view.camera(""), mix, pages, params);
+  const float seen = 4 * std::tan(0.25f);
+  for (int x = 0; x < 32; x += 5) {
+    const float texel = (0.5f + seen / 2 * ((static_cast<float>(x) + 0.5f) / 32 - 0.5f)) * 8 - 0.5f;
+    EXPECT_NEAR(behind.rgb_at(x, 3).r, 0.5f * kInvPi * (10 + texel), 3e-3f);
+    EXPECT_EQ(behind.rgb_at(x, 3).g, 0);
+  }
+  const Image front = view.render(look_at({0, 0.5f, -2}, {0, 0.5f, 0}), mix, pages, params);
+  EXPECT_NEAR(front.rgb_at(16, 16).g, 0.5f * kInvPi * 100, 1e-3f);
+}
+
+TEST_F(Picture, SkyIsSeenThroughItsFader) {
+  PackageContents c = constant(100);
+  Light sky;
+  sky.name = "sky";
+  sky.group = Id<LightGroup>(0);
+  sky.intensity = {2, 3, 4};
+  sky.shape = SkyLight{};
+  c.scene.lights.push_back(sky);
+  const Package package = write(c);
+  const View view(package);
+  const MixSpec mix{{Rgb(0.5f)}};
+  PictureParams params;
+  params.width = params.height = 4;
+  expect_all(view.render(look_at({0, 0, 2}, {0, 0, 5}), mix, mix_pages(package, mix), params), {1, 1.5f, 2});
+}
+
+TEST_F(Picture, SameBitsWithAnyNumberOfThreads) {
+  const PackageContents c = test_package(2, 1, 8, 8);
+  Image one;
+  {
+    const ThreadLimit limit(1);
+    one = render(c, 1, 70);
+  }
+  EXPECT_EQ(one.data, render(c, 1, 70).data);
+}
+
+TEST_F(Picture, Cameras) {
+  PackageContents c = constant(100);
+  {
+    const Package package = write(c);
+    const View view(package);
+    EXPECT_EQ(view.camera("main").name, "main");
+    EXPECT_EQ(view.camera("").name, "main");
+    EXPECT_THROW(view.camera("mane"), UsageError);
+  }
+  c.scene.cameras.clear();
+  const Package package = write(c);
+  const View view(package);
+  int warnings = 0;
+  Progress progress;
+  progress.warning = [&](const std::string&) { ++warnings; };
+  const Camera camera = view.camera("", progress);
+  EXPECT_EQ(warnings, 1);
+  EXPECT_NEAR(camera.frame[3].y, -1 + 0.6f * 2, 1e-5f);
+  EXPECT_THROW(view.camera("main"), UsageError);
+}
+
+TEST_F(Picture, BadRequests) {
+  const Package package = write(constant(100));
+  const View view(package);
+  const MixSpec mix{{Rgb(1)}};
+  const std::vector<Image> pages = mix_pages(package, mix);
+  PictureParams params;
+  params.width = 0;
+  EXPECT_THROW(view.render(view.camera(""), mix, pages, params), UsageError);
+  params.width = 8;
+  params.samples = 0;
+  EXPECT_THROW(view.render(view.camera(""), mix, pages, params), UsageError);
+  params.samples = 1;
+  Camera camera = view.camera("");
+  camera.frame[2] = glm::vec4(0);
+  EXPECT_THROW(view.render(camera, mix, pages, params), Error);
+  EXPECT_THROW(view.render(view.camera(""), {{}}, pages, params), Error);
+  EXPECT_THROW(look_at(Vec3(1), Vec3(1)), UsageError);
+  std::stop_source stop;
+  stop.request_stop();
+  Progress progress;
+  progress.stop = stop.get_token();
+  EXPECT_THROW(view.render(view.camera(""), mix, pages, params, progress), Cancelled);
+}
+
+}  // namespace
+}  // namespace sconce
