@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/import.h"
+
+#include "core/error.h"
+#include "core/text.h"
+#include "import/gltf_source.h"
+#include "import/obj_materials.h"
+#include "import/side_table.h"
+#include "scene/validate.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+
+namespace {
+
+struct Format {
+  const char* name;
+  Scene (*read)(const fs::path&, const Progress&);
+};
+
+constexpr Format kFormats[] = {
+    {"glTF 2.0 (.gltf, .glb)", import_gltf},
+    {"OBJ (.obj)", import_obj},
+};
+
+Scene read_any(const fs::path& path, const Progress& progress) {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) {
+    try {
+      return format.read(path, progress);
+    } catch (const NotMyFormat&) {
+      names.emplace_back(format.name);
+    }
+  }
+  throw Error(path.string(), "is in no format that can be read", join(names, ", "));
+}
+
+/// `kitchen.toml` of `kitchen.glb`, where it stands.
+std::optional<fs::path> side_file_of(const fs::path& scene) {
+  fs::path side = scene;
+  side.replace_extension(".toml");
+  std::error_code ec;
+  if (side == scene || !fs::is_regular_file(side, ec)) return std::nullopt;
+  return side;
+}
+
+}  // namespace
+
+Scene import_scene(const fs::path& path, const Progress& progress) {
+  Scene scene = read_any(path, progress);
+  if (const auto side = side_file_of(path)) apply_side_file(*side, scene, progress);
+  validate(scene, progress);
+  return scene;
+}
+
+std::vector<fs::path> scene_files(const fs::path& path) {
+  std::vector<fs::path> out;
+  try {
+    out = gltf_files(path);
+  } catch (const NotMyFormat&) {
+    if (lower(path.extension().string()) == ".obj") out = obj_files(path);
+  }
+  const auto side = side_file_of(path);
+  if (!side) return out;
+  out.push_back(*side);
+  const SideNode root = parse_side_file(*side);
+  const SideNode* sky = root.find("sky");
+  const SideNode* file = sky != nullptr ? sky->find("file") : nullptr;
+  if (const auto* name = file != nullptr ? std::get_if<std::string>(&file->value) : nullptr) {
+    std::error_code ec;
+    if (const fs::path picture = side->parent_path() / *name; fs::is_regular_file(picture, ec))
+      out.push_back(picture);
+  }
+  return out;
+}
+
+}  // namespace sconce

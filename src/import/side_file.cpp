@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/error.h"
+#include "core/text.h"
+#include "import/import.h"
+#include "import/side_parts.h"
+
+namespace sconce {
+
+namespace {
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> out;
+  out.reserve(all.size());
+  for (const Named& item : all) out.push_back(item.name);
+  return out;
+}
+
+using Apply = void (*)(const SideContext&, const SideNode&);
+
+/// `[[light]]`: every table of an array. One plain table `[light]` serves as well.
+void for_each_table(const SideContext& context, const SideNode& root, const std::string& key, Apply apply) {
+  const SideNode* node = root.find(key);
+  if (node == nullptr) return;
+  if (const auto* array = std::get_if<SideNode::Array>(&node->value)) {
+    for (const SideNode& item : *array) apply(context, item);
+  } else {
+    apply(context, *node);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> node_names(const Scene& scene) {
+  return names_of(scene.instances);
+}
+std::vector<std::string> light_names(const Scene& scene) {
+  return names_of(scene.lights);
+}
+std::vector<std::string> material_names(const Scene& scene) {
+  return names_of(scene.materials);
+}
+
+std::vector<std::size_t> matching(const SideContext& context, const SideTable& table, std::string_view key,
+                                  const std::string& glob, std::span<const std::string> names) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (glob_match(glob, names[i])) out.push_back(i);
+  if (out.empty()) {
+    const auto near = nearest_name(glob, names);
+    context.progress.warn(table.where(key) + ": '" + glob + "' matches nothing" +
+                          (near ? "; did you mean '" + *near + "'?" : ""));
+  }
+  return out;
+}
+
+Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up) {
+  const Vec3 z = -normalize_or(direction, Vec3(0, 0, -1));
+  const Vec3 x = normalize_or(glm::cross(up, z), Frame(z).x);
+  Mat4 out(1.0f);
+  out[0] = glm::vec4(x, 0);
+  out[1] = glm::vec4(glm::cross(z, x), 0);
+  out[2] = glm::vec4(z, 0);
+  out[3] = glm::vec4(position, 1);
+  return out;
+}
+
+void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress) {
+  const SideNode root = parse_side_file(path);
+  const SideTable file(path.string(), "the side file", root,
+                       {"light", "group", "emission", "camera", "sky", "material", "options"});
+  const SideContext context{path, scene, progress};
+  // Groups come last: they also name lamps that this file adds.
+  for_each_table(context, root, "material", apply_material);
+  for_each_table(context, root, "emission", apply_emission);
+  for_each_table(context, root, "light", apply_light);
+  if (const SideNode* sky = root.find("sky")) apply_sky(context, *sky);
+  for_each_table(context, root, "camera", apply_camera);
+  if (const SideNode* groups = root.find("group")) {
+    const auto* tables = std::get_if<SideNode::Table>(&groups->value);
+    if (tables == nullptr) file.fail("group", "is no table of groups", "[group.NAME]");
+    for (const auto& [name, node] : *tables) apply_group(context, name, node);
+  }
+  if (const SideNode* options = root.find("options");
+      options && !std::holds_alternative<SideNode::Table>(options->value))
+    file.fail("options", "is no table", "[options]");
+}
+
+}  // namespace sconce

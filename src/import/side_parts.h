@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of a side file, each applied to a scene. docs/side-file.md is their manual.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "import/side_table.h"
+#include "scene/scene.h"
+
+namespace sconce {
+
+/// What every table is applied with.
+struct SideContext {
+  std::filesystem::path path;
+  Scene& scene;
+  const Progress& progress;
+};
+
+void apply_light(const SideContext& context, const SideNode& node);
+void apply_sky(const SideContext& context, const SideNode& node);
+void apply_camera(const SideContext& context, const SideNode& node);
+void apply_material(const SideContext& context, const SideNode& node);
+void apply_emission(const SideContext& context, const SideNode& node);
+void apply_group(const SideContext& context, const std::string& name, const SideNode& node);
+
+/// Indices of the names that a glob matches; none: a warning with the nearest name.
+std::vector<std::size_t> matching(const SideContext& context, const SideTable& table, std::string_view key,
+                                  const std::string& glob, std::span<const std::string> names);
+
+std::vector<std::string> node_names(const Scene& scene);
+std::vector<std::string> light_names(const Scene& scene);
+std::vector<std::string> material_names(const Scene& scene);
+
+/// A frame at `position` that looks along `direction` (its -z), y up as far as possible.
+Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up = Vec3(0, 1, 0));
+
+}  // namespace sconce
