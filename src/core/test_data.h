@@ -25,11 +25,11 @@ inline bool test_data_required() {
 
 }  // namespace sconce
 
-/// Leaves the test when `path` (below test_data(), or any other) is absent: skipped, or failed when data is
+/// Leaves the test when `wanted` (below test_data(), or any other) is absent: skipped, or failed when data is
 /// required.
-#define SCONCE_NEEDS_DATA(path)                                                  \
+#define SCONCE_NEEDS_DATA(wanted)                                                \
   do {                                                                           \
-    const std::filesystem::path sconce_needed = (path);                          \
+    const std::filesystem::path sconce_needed = (wanted);                        \
     if (!std::filesystem::exists(sconce_needed)) {                               \
       if (sconce::test_data_required()) FAIL() << sconce_needed << " is absent"; \
       GTEST_SKIP() << sconce_needed << " is absent";                             \
