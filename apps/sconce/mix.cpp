@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mix/mix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "mix/layered_image.h"
+#include "mix_options.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+namespace {
+
+struct Mixed {
+  std::vector<GroupInfo> groups;
+  MixSpec mix;
+  std::vector<Image> pages;
+};
+
+/// A package, or a picture with layers; which of the two is told by content.
+Mixed mix_input(const std::string& input, const MixOptions& settings, const Progress& progress) {
+  const Preset preset = settings.preset();
+  Mixed out;
+  if (fs::is_regular_file(input)) {
+    Image image;
+    try {
+      image = read_exr(input);
+    } catch (const NotMyFormat&) {
+      throw Error(input, "is neither a package nor an OpenEXR picture");
+    }
+    const LayeredImage layered = find_layers(std::move(image), input);
+    out.groups = layered.groups;
+    out.mix = settings.make(preset, out.groups, progress);
+    out.pages.push_back(mix_layers(layered, out.mix));
+    return out;
+  }
+  const Package package = Package::open(input);
+  out.groups = package.manifest().groups;
+  out.mix = settings.make(preset, out.groups, progress);
+  for (int page = 0; page < package.manifest().pages; ++page) {
+    progress.check();
+    progress.at("mix", static_cast<uint64_t>(page), static_cast<uint64_t>(package.manifest().pages));
+    out.pages.push_back(mix_page(package, out.mix, page));
+  }
+  return out;
+}
+
+/// lightmap.exr; lightmap.0.exr, lightmap.1.exr, ... where there are several pages.
+std::vector<std::string> output_files(const std::string& output, std::size_t pages) {
+  if (pages == 1) return {output};
+  const fs::path path(output);
+  std::vector<std::string> files;
+  for (std::size_t page = 0; page < pages; ++page)
+    files.push_back(
+        (path.parent_path() / fmt::format("{}.{}{}", path.stem().string(), page, path.extension().string()))
+            .string());
+  return files;
+}
+
+/// All pages are written before the first one is put in place.
+void write_pages(const std::vector<std::string>& files, const std::vector<Image>& pages) {
+  std::vector<std::unique_ptr<Beside>> written;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    written.push_back(std::make_unique<Beside>(files[i]));
+    try {
+      write_exr(written.back()->path(), pages[i], PixelType::full);
+    } catch (const Error& e) {
+      const std::string temporary = written.back()->path().string();
+      std::string what = e.what();
+      if (const std::size_t at = what.find(temporary); at != std::string::npos)
+        what.replace(at, temporary.size(), files[i]);
+      throw Error({}, what);
+    }
+  }
+  for (const auto& beside : written) beside->commit();
+}
+
+void write_page_to_stdout(const std::vector<Image>& pages) {
+  if (pages.size() != 1)
+    throw UsageError("option '--output'", "standard output takes one page, this package has several");
+  const Beside file(fs::temp_directory_path() / "sconce-mix.exr");
+  write_exr(file.path(), pages.front(), PixelType::full);
+  write_stdout(read_file(file.path()));
+}
+
+}  // namespace
+
+int run_mix(int argc, const char* const* argv) {
+  const auto start = std::chrono::steady_clock::now();
+  std::string input, output;
+  MixOptions settings;
+  Options options("mix",
+                  "Adds a package's layers (or an OpenEXR picture's) with the groups' weights: one linear "
+                  "lightmap per page, in lux.");
+  options.positional("PACKAGE", &input,
+                     "NAME.sconce, or an OpenEXR picture with layers GROUP.R, GROUP.G, GROUP.B");
+  settings.declare(options);
+  options.option("-o,--output", &output,
+                 "OpenEXR to write; several pages get .0, .1, ... before .exr; - is stdout");
+  if (const auto code = options.parse(argc, argv)) return *code;
+  if (output.empty()) throw UsageError({}, "missing -o FILE.exr: where to write the lightmap");
+  check_output(output, {".exr"});
+  if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
+
+  const ThreadLimit threads(options.threads);
+  Mixed mixed;
+  std::vector<std::string> files;
+  {
+    const Progress progress = make_progress(options);
+    mixed = mix_input(input, settings, progress);
+    files = output_files(output, mixed.pages.size());
+    output == "-" ? write_page_to_stdout(mixed.pages) : write_pages(files, mixed.pages);
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Image& page = mixed.pages.front();
+  if (options.json) {
+    const nlohmann::ordered_json report = {
+        {"input", input},
+        {"output", files},
+        {"width", page.width},
+        {"height", page.height},
+        {"groups", nlohmann::ordered_json::parse(weights_json(mixed.groups, mixed.mix))},
+        {"seconds", seconds}};
+    fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  } else if (!options.quiet && output != "-") {
+    fmt::print("{}: {} x {}, {} of {} groups lit, {:.1f} s\n", join(files, ", "), page.width, page.height,
+               std::count_if(mixed.mix.weights.begin(), mixed.mix.weights.end(),
+                             [](const Rgb& w) { return !w.is_black(); }),
+               mixed.groups.size(), seconds);
+  }
+  return kDone;
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "tone/tone.h"
+
+namespace sconce::app {
+
+namespace {
+
+constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16;
+constexpr double kMaxStops = 64;
+
+double parse_stops(const std::string& text, const std::string& option, const char* allowed) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(std::abs(*value) <= kMaxStops))
+    throw UsageError("option '" + option + "'", "'" + text + "' is not understood", allowed);
+  return *value;
+}
+
+int parse_side(const std::string& text, const std::string& whole) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(*value >= 1 && *value <= kMaxSide) || *value != std::floor(*value))
+    throw UsageError("option '--size'", "'" + whole + "' is no size",
+                     fmt::format("WIDTHxHEIGHT or WIDTH, 1 to {} pixels", kMaxSide));
+  return static_cast<int>(*value);
+}
+
+}  // namespace
+
+PictureSize parse_size(const std::string& text) {
+  const std::vector<std::string> sides = split(lower(text), 'x');
+  if (sides.size() > 2) parse_side("", text);
+  return {parse_side(sides[0], text), sides.size() == 2 ? parse_side(sides[1], text) : 0};
+}
+
+Vec3 parse_point(const std::string& text, const std::string& option) {
+  const std::vector<std::string> parts = split(text, ',');
+  Vec3 point(0);
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> value =
+        parts.size() == 3 ? parse_number(trim(parts[static_cast<std::size_t>(i)])) : std::nullopt;
+    if (!value || !(std::abs(*value) < 1e9))
+      throw UsageError("option '" + option + "'", "'" + text + "' is no point", "X,Y,Z in metres");
+    point[i] = static_cast<float>(*value);
+  }
+  return point;
+}
+
+Exposure ExposureChoice::resolve(const Metering& metering) const {
+  return kind == Kind::ev100 ? ev100_exposure(value, metering.maximum)
+                             : auto_exposure(metering.log_mean, metering.maximum, value);
+}
+
+std::string ExposureChoice::text() const {
+  if (kind == Kind::ev100) return fmt::format("ev100 {:g}", value);
+  return value == 0 ? "auto" : fmt::format("auto {:+g}", value);
+}
+
+void PictureOptions::declare(Options& options) {
+  options.option("--camera", &camera, "camera of the scene (default: the first)");
+  options.option("--eye", &eye, "X,Y,Z in metres: look from here, with --target");
+  options.option("--target", &target, "X,Y,Z in metres: look at this");
+  options.option("--fov", &fov, "vertical field of view in degrees (default: the camera's)");
+  options.option("--size", &size, "WIDTHxHEIGHT, or WIDTH at the camera's aspect (default: 1280)");
+  options.option("--samples", &samples, "per pixel");
+  options.option("--exposure", &exposure,
+                 "auto, or stops brighter (+1) or darker (-1) than that (default: auto)");
+  options.option("--ev100", &ev100, "absolute exposure value at ISO 100; higher is darker");
+  options.option("--tone", &tone, "agx, drago, drago2006, reinhard, aces, neutral, linear (default: agx)");
+  options.option("--device", &device, "auto, cpu");
+}
+
+void PictureOptions::apply(const Preset& preset) {
+  if (camera.empty() && eye.empty()) camera = preset.camera;
+  if (exposure.empty() && ev100.empty()) exposure = preset.exposure;
+  if (tone.empty()) tone = preset.tone;
+}
+
+void PictureOptions::check() const {
+  if (eye.empty() != target.empty())
+    throw UsageError({}, eye.empty() ? "--target needs --eye" : "--eye needs --target");
+  if (!eye.empty() && !camera.empty()) throw UsageError({}, "--camera and --eye exclude each other");
+  if (!eye.empty()) look_at(parse_point(eye, "--eye"), parse_point(target, "--target"));
+  if (fov != 0 && !(fov > 0.1 && fov < 179))
+    throw UsageError("option '--fov'", "is no field of view", "0.1 to 179 degrees");
+  if (!size.empty()) parse_size(size);
+  if (samples < 1 || samples > kMaxSamples)
+    throw UsageError("option '--samples'", fmt::format("{} samples", samples),
+                     fmt::format("1 to {}", kMaxSamples));
+  if (!exposure.empty() && !ev100.empty()) throw UsageError({}, "--exposure and --ev100 exclude each other");
+  exposure_choice();
+  if (!tone.empty()) find_tone_mapper(tone);
+  if (device != "auto" && device != "cpu")
+    throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu");
+}
+
+ExposureChoice PictureOptions::exposure_choice() const {
+  if (!ev100.empty())
+    return {ExposureChoice::Kind::ev100, parse_stops(ev100, "--ev100", "a number, higher is darker"), true};
+  const bool automatic = exposure.empty() || exposure == "auto";
+  return {ExposureChoice::Kind::automatic,
+          automatic ? 0 : parse_stops(exposure, "--exposure", "auto, or stops such as +1 or -0.5"),
+          !exposure.empty()};
+}
+
+Camera PictureOptions::find_camera(const View& view, const Progress& progress) const {
+  Camera found = eye.empty() ? view.camera(camera, progress)
+                             : look_at(parse_point(eye, "--eye"), parse_point(target, "--target"));
+  if (fov != 0) found.yfov = static_cast<float>(fov * static_cast<double>(kPi) / 180);
+  return found;
+}
+
+PictureParams PictureOptions::params(const Camera& found) const {
+  const PictureSize wanted = size.empty() ? PictureSize{kDefaultWidth, 0} : parse_size(size);
+  const float aspect = found.aspect > 0 && std::isfinite(found.aspect) ? found.aspect : Camera{}.aspect;
+  PictureParams out;
+  out.width = wanted.width;
+  const float height = std::round(static_cast<float>(wanted.width) / aspect);
+  out.height =
+      wanted.height > 0 ? wanted.height : static_cast<int>(std::clamp(height, 1.0f, float{kMaxSide}));
+  out.samples = samples;
+  return out;
+}
+
+}  // namespace sconce::app

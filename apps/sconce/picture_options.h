@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `render` is told about its picture: camera, size, exposure, curve; text to values.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app.h"
+#include "mix/preset.h"
+#include "picture/render.h"
+#include "tone/exposure.h"
+
+namespace sconce::app {
+
+struct PictureSize {
+  int width = 0, height = 0;  ///< height 0: from the camera's aspect
+};
+/// `640x360`, or `640` for the width alone. @throws UsageError
+PictureSize parse_size(const std::string& text);
+
+/// `X,Y,Z` in metres. @throws UsageError naming `option`
+Vec3 parse_point(const std::string& text, const std::string& option);
+
+/// How values become exposed ones.
+struct ExposureChoice {
+  enum class Kind { automatic, ev100 } kind = Kind::automatic;
+  double value = 0;         ///< stops, or EV at ISO 100
+  bool explicitly = false;  ///< asked for, so that a linear picture is exposed too
+
+  Exposure resolve(const Metering& metering) const;
+  std::string text() const;
+};
+
+struct PictureOptions {
+  std::string camera, eye, target, size, exposure, ev100, tone, device = "auto";
+  double fov = 0;
+  int samples = 16;
+
+  void declare(Options& options);
+  /// Values that the command line left open come from the preset. @throws UsageError
+  void apply(const Preset& preset);
+  /// Everything that can be checked without the package. @throws UsageError
+  void check() const;
+  ExposureChoice exposure_choice() const;
+  Camera find_camera(const View& view, const Progress& progress) const;
+  PictureParams params(const Camera& camera) const;
+};
+
+}  // namespace sconce::app

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture/render.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "mix_options.h"
+#include "picture_options.h"
+#include "tone/apply.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// kitchen.sconce -> kitchen.png beside it.
+std::string default_output(const std::string& package) {
+  fs::path path(package);
+  if (!path.has_filename()) path = path.parent_path();
+  return path.replace_extension(".png").string();
+}
+
+struct Rendered {
+  Image linear, coverage;  ///< cd/m2, before exposure
+  Camera camera;
+  PictureParams params;
+  MixSpec mix;
+  Metering metering;
+};
+
+Rendered render(const Package& package, const PictureOptions& picture, const MixOptions& settings,
+                const Preset& preset, bool metered, const Progress& progress) {
+  Rendered out;
+  out.mix = settings.make(preset, package.manifest().groups, progress);
+  const View view(package);
+  out.camera = picture.find_camera(view, progress);
+  out.params = picture.params(out.camera);
+  progress.check();
+  const std::vector<Image> pages = mix_pages(package, out.mix);
+  if (metered) out.metering = meter(package, view.scene(), out.mix, pages);
+  out.linear = view.render(out.camera, out.mix, pages, out.params, progress, &out.coverage);
+  return out;
+}
+
+void write_linear(const std::string& output, Image picture, const Exposure& exposure) {
+  for (float& v : picture.data) v *= exposure.scale;
+  picture.number["whiteLuminance"] = exposure.white_luminance();
+  write_exr(output, picture, PixelType::full);
+}
+
+void write_toned(const std::string& output, const Image& picture, const Exposure& exposure,
+                 const ToneMapper& tone) {
+  const Image8 toned = tone_map(picture, exposure, tone);
+  if (output != "-") return write_png(output, toned);
+  const std::vector<unsigned char> bytes = encode_png(toned);
+  write_stdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+int run_render(int argc, const char* const* argv) {
+  const auto start = Clock::now();
+  std::string input, output, coverage;
+  MixOptions settings;
+  PictureOptions picture;
+  Options options("render",
+                  "A picture of a package through a camera: base colour x mixed lightmap, visible emitters, "
+                  "exposure, tone curve.");
+  options.positional("PACKAGE", &input, "NAME.sconce");
+  settings.declare(options);
+  picture.declare(options);
+  options.option(
+      "-o,--output", &output,
+      "PNG (toned), or OpenEXR (linear, cd/m2; exposed only when asked for); - is PNG on stdout (default: "
+      "NAME.png)");
+  options.option("--coverage", &coverage,
+                 "OpenEXR of the share of each pixel that shows an emitter, for 'diff --mask'");
+  if (const auto code = options.parse(argc, argv)) return *code;
+
+  const bool tone_given = !picture.tone.empty();
+  const Preset preset = settings.preset();
+  picture.apply(preset);
+  picture.check();
+  if (output.empty()) output = default_output(input);
+  check_output(output, {".png", ".exr"});
+  if (!coverage.empty()) check_output(coverage, {".exr"});
+  if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
+  const bool linear = lower(fs::path(output).extension().string()) == ".exr";
+  const ToneMapper& tone = find_tone_mapper(picture.tone.empty() ? "agx" : picture.tone);
+  const ExposureChoice choice = picture.exposure_choice();
+  const bool exposed = !linear || choice.explicitly;
+
+  const ThreadLimit threads(options.threads);
+  Rendered rendered;
+  Exposure exposure;
+  std::vector<GroupInfo> groups;
+  {
+    const Progress progress = make_progress(options);
+    if (linear && tone_given && tone.name != "linear")
+      progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone + " is not applied");
+    const Package package = Package::open(input);
+    groups = package.manifest().groups;
+    rendered = render(package, picture, settings, preset, exposed, progress);
+    exposure = exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);
+    if (!coverage.empty()) write_exr(coverage, rendered.coverage, PixelType::half);
+    linear ? write_linear(output, rendered.linear, exposure)
+           : write_toned(output, rendered.linear, exposure, tone);
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::string exposure_text = exposed ? choice.text() : "none";
+  if (options.json) {
+    nlohmann::ordered_json report = {
+        {"input", input},
+        {"output", output},
+        {"width", rendered.params.width},
+        {"height", rendered.params.height},
+        {"samples", rendered.params.samples},
+        {"camera", rendered.camera.name},
+        {"tone", linear ? "linear" : std::string(tone.name)},
+        {"exposure", {{"mode", exposure_text}, {"scale", exposure.scale}}},
+        {"groups", nlohmann::ordered_json::parse(weights_json(groups, rendered.mix))},
+        {"seconds", seconds}};
+    if (exposed) {
+      report["exposure"]["log_mean"] = rendered.metering.log_mean;
+      report["exposure"]["maximum"] = rendered.metering.maximum;
+    }
+    fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  } else if (!options.quiet && output != "-") {
+    fmt::print("{}: {} x {}, camera {}, exposure {}, {:.1f} s\n", output, rendered.params.width,
+               rendered.params.height, rendered.camera.name, exposure_text, seconds);
+  }
+  return kDone;
+}
+
+}  // namespace sconce::app
