@@ -32,6 +32,13 @@ void add_row(std::string& out, const std::string& left, const std::string& right
   out += '\n';
 }
 
+/// The default as help shows it: nothing where it says nothing, or where the text already says it.
+std::string shown_default(const Declared& d) {
+  const std::string value = d.is_flag() ? "" : d.show();
+  const bool unset = value == "inf" || (value == "0" && d.doc.find("0 =") == std::string::npos);
+  return unset || d.doc.find("default:") != std::string::npos ? "" : value;
+}
+
 std::string upper(std::string text) {
   for (char& c : text) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -52,7 +59,7 @@ std::string help_text(const std::string& verb, const std::string& summary,
     } else {
       std::string left = join(split(d.names, ','), ", ");
       if (!d.is_flag()) left += " " + d.placeholder;
-      const std::string value = d.is_flag() ? "" : d.show();
+      const std::string value = shown_default(d);
       add_row(options, left, value.empty() ? d.doc : fmt::format("{} [{}]", d.doc, value));
     }
   }

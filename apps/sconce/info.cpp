@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app.h"
@@ -20,10 +21,39 @@ std::string hex_color(const Rgb& linear) {
 }
 
 std::string some_names(const std::vector<std::string>& names, std::size_t limit) {
-  const std::size_t shown = names.size() > limit ? limit - 1 : names.size();
-  std::string text = join(std::span(names).first(shown), ", ");
-  if (shown < names.size()) text += fmt::format(", and {} more", names.size() - shown);
+  std::vector<std::pair<std::string, int>> counted;
+  for (const std::string& name : names) {
+    const auto same =
+        std::find_if(counted.begin(), counted.end(), [&](const auto& c) { return c.first == name; });
+    if (same != counted.end()) {
+      ++same->second;
+    } else {
+      counted.emplace_back(name, 1);
+    }
+  }
+  const std::size_t shown = counted.size() > limit ? limit - 1 : counted.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += (text.empty() ? "" : ", ") + counted[i].first;
+    if (counted[i].second > 1) text += fmt::format(" ({} times)", counted[i].second);
+  }
+  if (shown < counted.size()) text += fmt::format(", and {} more", counted.size() - shown);
   return text;
+}
+
+namespace {
+
+double shortest(float value) {
+  return parse_number(fmt::format("{}", value)).value_or(static_cast<double>(value));
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_of(const Rgb& c) {
+  return {shortest(c.r), shortest(c.g), shortest(c.b)};
+}
+nlohmann::ordered_json json_of(const Vec3& v) {
+  return {shortest(v.x), shortest(v.y), shortest(v.z)};
 }
 
 int run_info(int argc, const char* const* argv) {

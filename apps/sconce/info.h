@@ -8,6 +8,7 @@
 
 #include "core/progress.h"
 #include "core/rgb.h"
+#include "core/vec.h"
 
 namespace sconce::app {
 
@@ -22,9 +23,12 @@ InfoReport scene_info(const std::filesystem::path& path, const std::string& grou
                       const Progress& progress);
 InfoReport package_info(const std::filesystem::path& path, bool options);
 
+/// Numbers as short as their float precision.
+nlohmann::ordered_json json_of(const Rgb& c);
+nlohmann::ordered_json json_of(const Vec3& v);
 /// "#rrggbb" of a linear colour of any brightness, its largest channel at ff.
 std::string hex_color(const Rgb& linear);
-/// At most `limit` names, then how many more.
+/// At most `limit` different names, repeated ones with their number, then how many more.
 std::string some_names(const std::vector<std::string>& names, std::size_t limit = 4);
 
 }  // namespace sconce::app

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "core/text.h"
 #include "info.h"
 #include "package/package.h"
 #include "table.h"
@@ -36,7 +33,7 @@ void add_groups(const Manifest& m, InfoReport& report) {
                std::to_string(g.lamps.size()), some_names(g.lamps)});
     groups.push_back({{"name", g.name},
                       {"lumens", g.infinite ? Json() : Json(g.lumens)},
-                      {"color", {g.color.r, g.color.g, g.color.b}},
+                      {"color", json_of(g.color)},
                       {"color_spread", g.color_spread},
                       {"mean_lux", g.mean_lux},
                       {"noise", g.noise},

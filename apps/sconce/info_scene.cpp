@@ -22,13 +22,6 @@ std::size_t instanced_triangles(const Scene& scene) {
   return count;
 }
 
-Json json_of(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-Json json_of(const Rgb& c) {
-  return {c.r, c.g, c.b};
-}
-
 void add_groups(const Scene& scene, const World& world, InfoReport& report) {
   const Lamps lamps(scene, world);
   const std::vector<GroupFlux> fluxes = group_flux(scene, lamps);
