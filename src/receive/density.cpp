@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -20,7 +22,10 @@ constexpr uint32_t kCameraWeight = 4;  // a surface in the picture matters more 
 constexpr double kFullDensity = 0.1;   // relative hits from which on density is full
 constexpr double kReachedBack = 0.02;  // relative hits from which on a back is lit and seen
 constexpr double kUnseen = 0.01;       // relative hits below which a triangle is kept apart from seen ones
-constexpr double kEnough = 8;          // hits expected at kFullDensity before their absence says something
+constexpr double kMostSpent = 30;      // texels spent on a patch per texel of its seen part
+constexpr double kCellVisits = 400;    // on an ordinary surface
+constexpr uint32_t kNobody = 0xffffffffu;
+constexpr double kEnough = 8;  // hits expected at kFullDensity before their absence says something
 
 Vec3 cosine_direction(const Vec3& n, Vec2 u) {
   const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
@@ -105,24 +110,60 @@ Ray camera_ray(const Camera& camera, Vec2 u) {
   return {Vec3(camera.frame[3]), normalize_or(d, Vec3(0))};
 }
 
-/// Hits per m2 of the smallest area that takes nine tenths of all hits.
-double ordinary(const std::vector<uint32_t>& hits, const MeshGraph& graph) {
+/// Weight per m2 of the smallest area that takes nine tenths of all visits.
+double ordinary(const std::vector<uint64_t>& weights, const MeshGraph& graph) {
   std::vector<uint32_t> order;
   double total = 0;
-  for (uint32_t i = 0; i < hits.size(); ++i)
-    if (hits[i] > 0) order.push_back(i), total += hits[i];
+  for (uint32_t i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0) order.push_back(i), total += static_cast<double>(weights[i]);
   const auto density = [&](uint32_t i) {
-    return static_cast<double>(hits[i]) / static_cast<double>(graph.areas[i / 2]);
+    return static_cast<double>(weights[i]) / static_cast<double>(graph.areas[i / 2]);
   };
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return std::tuple(-density(a), a) < std::tuple(-density(b), b); });
   double sum = 0, area = 0;
   for (const uint32_t i : order) {
     if (sum >= 0.9 * total) break;
-    sum += hits[i];
+    sum += static_cast<double>(weights[i]);
     area += static_cast<double>(graph.areas[i / 2]);
   }
-  return area > 0 ? sum / area : 0.0;
+  return std::max(area > 0 ? sum / area : 0.0, 1e-6);
+}
+
+struct Vertex {
+  uint32_t side = kNobody, weight = 0;
+  Vec3 position;
+};
+
+/// Sorted and summed by side and cell.
+Visibility tally(const std::vector<Vertex>& vertices, const World& world, const MeshGraph& graph) {
+  Visibility seen;
+  std::vector<uint64_t> weights(2 * world.size(), 0);
+  for (const Vertex& v : vertices)
+    if (v.side != kNobody) weights[v.side] += v.weight;
+  seen.reference = ordinary(weights, graph);
+  // A few hundred visits on an ordinary surface, so that their number means something.
+  seen.cell_area = kCellVisits / seen.reference;
+  const double step = std::sqrt(seen.cell_area);
+  std::vector<Visibility::Visit> all;
+  for (const Vertex& v : vertices) {
+    if (v.side == kNobody) continue;
+    const glm::dvec3 p = glm::dvec3(v.position - world.bounds.lo) / step;
+    const auto index = [](double x) { return static_cast<uint64_t>(std::clamp(x, 0.0, 2097151.0)); };
+    all.push_back({v.side, v.weight, index(p.x) | index(p.y) << 21 | index(p.z) << 42});
+  }
+  const auto key = [](const Visibility::Visit& v) { return std::pair(v.side, v.cell); };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  for (const Visibility::Visit& visit : all) {
+    if (!seen.visits.empty() && key(seen.visits.back()) == key(visit))
+      seen.visits.back().weight += visit.weight;
+    else
+      seen.visits.push_back(visit);
+  }
+  seen.first.assign(2 * world.size() + 1, 0);
+  for (const Visibility::Visit& visit : seen.visits) ++seen.first[visit.side + 1];
+  std::partial_sum(seen.first.begin(), seen.first.end(), seen.first.begin());
+  return seen;
 }
 
 }  // namespace
@@ -131,19 +172,16 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
                             const Tracer& tracer, uint32_t seed, const Progress& progress) {
   const Starts starts(scene, world, graph);
   const std::size_t cameras = scene.cameras.size(), lamps = starts.lamps();
-  Visibility seen;
   if (cameras + lamps == 0) {
     // Nothing looks and nothing shines: fronts count as seen.
-    seen.hits.assign(2 * world.size(), 0);
-    for (std::size_t t = 0; t < world.size(); ++t)
-      seen.hits[2 * t] = 1u + static_cast<uint32_t>(std::min(1e3f * graph.areas[t], 1e9f));
-    seen.reference = ordinary(seen.hits, graph);
-    return seen;
+    std::vector<Vertex> vertices;
+    for (uint32_t t = 0; t < world.size(); ++t)
+      vertices.push_back({2 * t, 1u + static_cast<uint32_t>(std::min(1e4f * graph.areas[t], 1e9f)),
+                          world.position(t, Vec2(1.0f / 3))});
+    return tally(vertices, world, graph);
   }
-
-  // Whole numbers, so that the order of the threads does not show in the sums.
-  std::vector<std::atomic<uint32_t>> counts(2 * world.size());
   const uint32_t camera_paths = cameras > 0 ? kCameraPaths : 0, lamp_paths = lamps > 0 ? kLampPaths : 0;
+  std::vector<Vertex> vertices(std::size_t{camera_paths + lamp_paths} * kVertices);
   constexpr std::size_t kBlock = 4096;
   const std::size_t blocks = (camera_paths + lamp_paths) / kBlock;
   std::atomic<uint64_t> done = 0;
@@ -167,49 +205,71 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
       for (int vertex = 0; vertex < kVertices; ++vertex) {
         const Hit hit = tracer.closest(ray);
         if (!hit) break;
-        counts[2 * hit.triangle + (hit.back ? 1 : 0)].fetch_add(
-            from_camera && vertex == 0 ? kCameraWeight : 1, std::memory_order_relaxed);
+        const Vec3 position = world.position(hit.triangle, hit.barycentric);
+        vertices[std::size_t{path} * kVertices + static_cast<std::size_t>(vertex)] = {
+            2 * hit.triangle + (hit.back ? 1 : 0), from_camera && vertex == 0 ? kCameraWeight : 1, position};
         if (hit.back && !scene[world.materials[hit.triangle]].double_sided) break;  // black
         const Vec3 n = hit.back ? -world.face_normals[hit.triangle] : world.face_normals[hit.triangle];
         const Vec3 direction = cosine_direction(n, sampler.next());
-        ray = {offset_origin(world.position(hit.triangle, hit.barycentric), n, direction), direction};
+        ray = {offset_origin(position, n, direction), direction};
       }
     }
     progress.at("visibility", ++done, blocks);
   });
-  seen.hits.resize(2 * world.size());
-  for (std::size_t i = 0; i < seen.hits.size(); ++i) seen.hits[i] = counts[i].load(std::memory_order_relaxed);
-  seen.reference = std::max(ordinary(seen.hits, graph), 1e-6);
-  return seen;
+  return tally(vertices, world, graph);
 }
 
-double Visibility::relative(const MeshGraph& graph, const Patch& patch, bool back) const {
-  double sum = 0, area = 0;
-  for (const uint32_t t : patch) {
-    sum += hits[2 * t + (back ? 1 : 0)];
-    area += static_cast<double>(graph.areas[t]);
-  }
-  return area > 0 ? sum / (area * reference) : 0.0;
+uint64_t Visibility::weight(uint32_t side) const {
+  uint64_t sum = 0;
+  for (uint32_t i = first[side]; i < first[side + 1]; ++i) sum += visits[i].weight;
+  return sum;
 }
 
 float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch& patch, bool back,
                     float least) {
-  double area = 0;
-  for (const uint32_t t : patch) area += static_cast<double>(graph.areas[t]);
-  const double doubt = 1.0 / std::max(1e-30, area * seen.reference);  // one hit more than was counted
-  const double relative = seen.relative(graph, patch, back) + doubt;
-  return std::clamp(static_cast<float>(std::sqrt(relative / kFullDensity)), least, 1.0f);
+  double area = 0, total = 0;
+  std::map<uint64_t, double> cells;
+  for (const uint32_t t : patch) {
+    area += static_cast<double>(graph.areas[t]);
+    const uint32_t side = 2 * t + (back ? 1 : 0);
+    for (uint32_t i = seen.first[side]; i < seen.first[side + 1]; ++i) {
+      cells[seen.visits[i].cell] += seen.visits[i].weight;
+      total += seen.visits[i].weight;
+    }
+  }
+  area = std::max(area, 1e-20);
+  // The smallest part of the patch that takes nine tenths of its visits.
+  std::vector<double> weights;
+  for (const auto& [cell, weight] : cells) weights.push_back(weight);
+  std::sort(weights.begin(), weights.end(), std::greater<>());
+  double sum = 0;
+  std::size_t used = 0;
+  while (used < weights.size() && sum < 0.9 * total) sum += weights[used++];
+  const double seen_area = std::min(area, static_cast<double>(used) * seen.cell_area);
+  const double doubt = 1.0 / (area * seen.reference);  // one visit more than was counted
+  const double relative = (seen_area > 0 ? sum / (seen_area * seen.reference) : 0.0) + doubt;
+  const double share = std::min(1.0, kMostSpent * seen_area / area + doubt / kFullDensity);
+  return std::clamp(static_cast<float>(std::sqrt(std::min(1.0, relative / kFullDensity) * share)), least,
+                    1.0f);
 }
 
 bool back_is_reached(const Visibility& seen, const MeshGraph& graph, const Patch& patch) {
-  return seen.relative(graph, patch, true) > kReachedBack;
+  double sum = 0, area = 0;
+  for (const uint32_t t : patch) {
+    sum += static_cast<double>(seen.weight(2 * t + 1));
+    area += static_cast<double>(graph.areas[t]);
+  }
+  return sum > kReachedBack * area * seen.reference;
 }
 
 std::vector<uint8_t> unseen_triangles(const Visibility& seen, const MeshGraph& graph) {
   std::vector<uint8_t> result(graph.size(), 0);
-  for (std::size_t t = 0; t < graph.size(); ++t) {
-    const double ordinary_hits = static_cast<double>(graph.areas[t]) * seen.reference;
-    result[t] = ordinary_hits * kFullDensity >= kEnough && seen.hits[2 * t] < kUnseen * ordinary_hits ? 1 : 0;
+  for (uint32_t t = 0; t < graph.size(); ++t) {
+    const double expected = static_cast<double>(graph.areas[t]) * seen.reference;
+    result[t] =
+        expected * kFullDensity >= kEnough && static_cast<double>(seen.weight(2 * t)) < kUnseen * expected
+            ? 1
+            : 0;
   }
   return result;
 }

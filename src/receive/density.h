@@ -9,11 +9,18 @@
 namespace sconce {
 
 struct Visibility {
-  std::vector<uint32_t> hits;  ///< per side (2 * triangle + 1 for the back): weighted path vertices
-  double reference = 1;        ///< hits per m2 of an ordinary surface
+  /// A path's vertex on a side of a triangle.
+  struct Visit {
+    uint32_t side;  ///< 2 * triangle + 1 for the back
+    uint32_t weight;
+    uint64_t cell;  ///< cube of space it lies in
+  };
+  std::vector<Visit> visits;    ///< by side, then by cell, each pair once
+  std::vector<uint32_t> first;  ///< per side: its range of visits, one more than sides
+  double reference = 1;         ///< weight per m2 of an ordinary surface
+  double cell_area = 1;         ///< m2 that a surface has in a cell, about
 
-  /// Hits per m2 of these triangles' side, relative to an ordinary surface.
-  double relative(const MeshGraph& graph, const Patch& patch, bool back) const;
+  uint64_t weight(uint32_t side) const;
 };
 
 /// About a million path vertices: camera rays over every picture and rays from lamps, each with three diffuse
@@ -21,8 +28,10 @@ struct Visibility {
 Visibility probe_visibility(const Scene& scene, const World& world, const MeshGraph& graph,
                             const Tracer& tracer, uint32_t seed, const Progress& progress);
 
-/// Linear density scale: 1 down to a tenth of an ordinary surface's hits per m2, from there falling with the
-/// square root. Patches too small to tell are given the benefit of the doubt.
+/// Linear density scale: what the seen part of the patch needs, 1 down to a tenth of an ordinary surface's
+/// visits per m2, from there falling with the square root; less where the seen part is only a small share of
+/// the patch, so that no more than some 30 texels are spent per seen one. Patches too small to tell are given
+/// the benefit of the doubt.
 float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch& patch, bool back,
                     float least);
 

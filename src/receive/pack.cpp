@@ -17,6 +17,10 @@ namespace sconce {
 
 namespace {
 
+constexpr int kManyPages = 4096;
+constexpr int kTries = 6;           // page sizes tried after the first that works
+constexpr double kPageCost = 0.15;  // of a page's texels, for every page after the first
+
 /// Texels that a length covers when it is centred in them.
 int texels(float length) {
   return std::max(1, static_cast<int>(std::ceil(length - 1e-3f)));
@@ -51,16 +55,16 @@ class Packer {
     for (const Box& box : boxes_) sum += static_cast<double>(box.width) * static_cast<double>(box.height);
     return sum;
   }
-  int largest() const {
-    int most = 0;
-    for (const Box& box : boxes_) most = std::max({most, box.width, box.height});
-    return most;
+  bool fits(int width, int height) const {
+    return std::ranges::all_of(boxes_,
+                               [&](const Box& box) { return box.width <= width && box.height <= height; });
   }
 
   /// Nothing when more than `most_pages` are needed.
-  std::optional<Packing> pack(int page, int most_pages) const {
+  std::optional<Packing> pack(int width, int height, int most_pages) const {
     Packing packing;
-    packing.width = packing.height = page;
+    packing.width = width;
+    packing.height = height;
     packing.density = density_;
     packing.blocks.resize(blocks_.size());
     std::vector<stbrp_rect> open;
@@ -71,11 +75,11 @@ class Packer {
       rect.h = static_cast<stbrp_coord>(boxes_[i].height);
       open.push_back(rect);
     }
-    std::vector<stbrp_node> nodes(static_cast<std::size_t>(page));
+    std::vector<stbrp_node> nodes(static_cast<std::size_t>(width));
     while (!open.empty()) {
       if (packing.pages == most_pages) return std::nullopt;
       stbrp_context context;
-      stbrp_init_target(&context, page, page, nodes.data(), page);
+      stbrp_init_target(&context, width, height, nodes.data(), width);
       stbrp_pack_rects(&context, open.data(), static_cast<int>(open.size()));
       std::vector<stbrp_rect> rest;
       for (const stbrp_rect& rect : open) {
@@ -115,30 +119,37 @@ Packing pack_density(Packer& packer, const AtlasParams& params, std::vector<std:
   if (shrunk > 0)
     warnings.push_back(std::to_string(shrunk) + " charts are longer than a page of " + std::to_string(most) +
                        " texels and are baked at lower density");
-  constexpr int kManyPages = 4096;
   if (params.page_size > 0) {
-    if (auto packing = packer.pack(params.page_size, kManyPages)) return *packing;
+    if (auto packing = packer.pack(params.page_size, params.page_size, kManyPages)) return *packing;
     throw Error("atlas",
                 "a page of " + std::to_string(params.page_size) + " texels is too small for the charts");
   }
   // The least memory; every further page costs a little, as it is one more file and one more draw call.
-  const auto cost = [](double pages, double page) { return pages * page * page * (1 + 0.03 * (pages - 1)); };
-  std::vector<std::pair<double, int>> candidates;
-  for (int page = 16; page <= params.max_page; page *= 2) {
-    if (packer.largest() > page) continue;
-    const double pages = std::ceil(packer.total() / (static_cast<double>(page) * page));
-    if (pages <= 64) candidates.emplace_back(cost(pages, page), page);
+  struct Candidate {
+    double cost;
+    int width, height;
+  };
+  const auto cost = [](double pages, int width, int height) {
+    return pages * width * height * (1 + kPageCost * (pages - 1));
+  };
+  std::vector<Candidate> candidates;
+  for (int width = 16; width <= params.max_page; width *= 2) {
+    for (int height = std::max(16, width / 4); height <= width; height *= 2) {
+      if (!packer.fits(width, height)) continue;
+      const double pages = std::ceil(packer.total() / (static_cast<double>(width) * height));
+      candidates.push_back({cost(pages, width, height), width, height});
+    }
   }
-  if (candidates.empty()) candidates.emplace_back(0.0, params.max_page);
-  std::sort(candidates.begin(), candidates.end());
+  if (candidates.empty()) candidates.push_back({0.0, params.max_page, params.max_page});
+  std::ranges::stable_sort(candidates, {}, &Candidate::cost);
   std::optional<Packing> best;
   double best_cost = 0;
   int tries = 0;
-  for (const auto& [bound, page] : candidates) {
-    if (best && (bound >= best_cost || ++tries > 3)) break;
-    auto packing = packer.pack(page, kManyPages);
+  for (const auto& [bound, width, height] : candidates) {
+    if (best && (bound >= best_cost || ++tries > kTries)) break;
+    auto packing = packer.pack(width, height, kManyPages);
     if (!packing) continue;
-    const double real = cost(packing->pages, page);
+    const double real = cost(packing->pages, width, height);
     if (!best || real < best_cost) best = std::move(packing), best_cost = real;
   }
   if (!best)
@@ -157,7 +168,7 @@ Packing pack_one_page(Packer& packer, const std::vector<Block>& blocks, int page
     const double density = low > 0 ? 0.5 * (low + high) : 0.7 * high;
     packer.set_density(static_cast<float>(density), page);
     std::optional<Packing> packing;
-    if (packer.total() <= side * side) packing = packer.pack(page, 1);
+    if (packer.total() <= side * side) packing = packer.pack(page, page, 1);
     if (packing) {
       best = std::move(packing);
       low = density;
