@@ -3,6 +3,8 @@
 
 namespace sconce {
 
-Rgb tone_linear(const Rgb& exposed, const ToneParams&) { return curve::to_unit(curve::clean(exposed)); }
+Rgb tone_linear(const Rgb& exposed, const ToneParams&) {
+  return curve::to_unit(curve::clean(exposed));
+}
 
 }  // namespace sconce

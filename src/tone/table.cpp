@@ -8,10 +8,6 @@
 
 namespace sconce {
 
-Rgb tone_linear(const Rgb& exposed, const ToneParams&) {
-  return curve::to_unit(curve::clean(exposed));
-}
-
 namespace {
 
 constexpr ToneMapper kToneMappers[] = {
