@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mix_options.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -49,6 +51,13 @@ void check_output(const std::string& path, const std::vector<std::string>& exten
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw UsageError("option '--output'", "'" + path + "' has no known extension",
                      join(extensions, ", ") + ", -");
+  // Told before the work, not after it.
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (std::filesystem::is_directory(path)) throw Error(path, "is a folder");
+  if (!std::filesystem::is_directory(folder)) throw Error(path, "cannot be written: no such folder");
+  if (::access(folder.c_str(), W_OK) != 0)
+    throw Error(path, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 void write_stdout(std::string_view bytes) {

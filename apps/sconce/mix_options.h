@@ -27,7 +27,8 @@ struct MixOptions {
 /// JSON text: [{"name": ..., "weight": [r, g, b]}, ...]
 std::string weights_json(std::span<const GroupInfo> groups, const MixSpec& mix);
 
-/// `path` if it ends with one of `extensions`, or is `-`. @throws UsageError naming them
+/// `path` must end with one of `extensions`, or be `-`, and its folder must be writable.
+/// @throws UsageError naming the extensions; Error
 void check_output(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Bytes to standard output, for `-o -`. @throws Error when they do not all arrive

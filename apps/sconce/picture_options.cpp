@@ -87,8 +87,8 @@ void PictureOptions::check() const {
     throw UsageError({}, eye.empty() ? "--target needs --eye" : "--eye needs --target");
   if (!eye.empty() && !camera.empty()) throw UsageError({}, "--camera and --eye exclude each other");
   if (!eye.empty()) look_at(parse_point(eye, "--eye"), parse_point(target, "--target"));
-  if (fov != 0 && !(fov > 0.1 && fov < 179))
-    throw UsageError("option '--fov'", "is no field of view", "0.1 to 179 degrees");
+  if (fov != 0 && !(fov >= 0.1 && fov <= 179))
+    throw UsageError("option '--fov'", fmt::format("{:g} degrees", fov), "0.1 to 179");
   if (!size.empty()) parse_size(size);
   if (samples < 1 || samples > kMaxSamples)
     throw UsageError("option '--samples'", fmt::format("{} samples", samples),

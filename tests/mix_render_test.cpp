@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs mix and render on a package whose content is known.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "image/io.h"
+#include "mix/mix.h"
+#include "package/test_package.h"
+#include "process.h"
+
+namespace sconce {
+namespace {
+
+using test::Outcome;
+using test::run_sconce;
+
+/// Two groups, 100 and 20 lux of grey, on a grey wall (albedo 0.5) that fills the camera's view.
+class MixRender : public testing::Test {
+ protected:
+  void SetUp() override { write(1); }
+  void write(int pages) {
+    PackageContents c = test_package(2, pages, 8, 8);
+    for (std::size_t g = 0; g < 2; ++g)
+      for (Image& page : c.layers[g])
+        for (float& v : page.data) v = g == 0 ? 100.0f : 20.0f;
+    write_package(package(), c);
+  }
+  std::string package() const { return path("wall.sconce"); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  Outcome run(std::vector<std::string> args) const {
+    args.insert(args.begin() + 1, package());
+    return run_sconce(args);
+  }
+  void expect_error(const std::vector<std::string>& args, int code, const std::string& said) const {
+    const Outcome outcome = run(args);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  std::size_t files() const {
+    std::size_t n = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_ / "")) ++n;
+    return n;
+  }
+  TemporaryFolder folder_;
+};
+
+constexpr float kLuminance = 0.5f * kInvPi;  // of the wall, per lux
+
+TEST_F(MixRender, LightmapIsTheWeightedSum) {
+  ASSERT_EQ(run({"mix", "a=0.5", "--others", "+1ev", "-o", path("m.exr")}).code, 0);
+  const Image mixed = read_exr(path("m.exr"));
+  EXPECT_EQ(mixed.width, 8);
+  EXPECT_EQ(mixed.text.at("sconce:unit"), "lux");
+  for (const float v : mixed.data) EXPECT_EQ(v, 90.0f);
+}
+
+TEST_F(MixRender, SeveralPagesAreNumbered) {
+  write(2);
+  ASSERT_EQ(run({"mix", "-o", path("m.exr")}).code, 0);
+  EXPECT_EQ(read_exr(path("m.1.exr")).data.front(), 120.0f);
+  EXPECT_TRUE(std::filesystem::exists(path("m.0.exr")));
+  EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
+}
+
+TEST_F(MixRender, LayeredPictureMixesToo) {
+  Image image(2, 2, {"key.R", "key.G", "key.B", "fill.R", "fill.G", "fill.B"});
+  for (float& v : image.data) v = 2;
+  write_exr(path("render.exr"), image, PixelType::full);
+  ASSERT_EQ(run_sconce({"mix", path("render.exr"), "fill=off", "key=3", "-o", path("m.exr")}).code, 0);
+  EXPECT_EQ(read_exr(path("m.exr")).rgb_at(1, 1), Rgb(6));
+  EXPECT_EQ(run_sconce({"mix", path("render.exr"), "fil=off", "-o", path("m.exr")}).code, 2);
+}
+
+TEST_F(MixRender, LinearPictureHoldsCandelas) {
+  ASSERT_EQ(run({"render", "b=off", "--size", "8x6", "--tone", "linear", "-o", path("x.exr")}).code, 0);
+  const Image picture = read_exr(path("x.exr"));
+  EXPECT_EQ(picture.width, 8);
+  EXPECT_EQ(picture.height, 6);
+  for (const float v : picture.data) EXPECT_NEAR(v, kLuminance * 100, 1e-3f);
+}
+
+TEST_F(MixRender, ExplicitExposureIsAppliedAndRecorded) {
+  ASSERT_EQ(run({"render", "--size", "8", "--exposure", "+1", "-o", path("x.exr")}).code, 0);
+  const Image picture = read_exr(path("x.exr"));
+  EXPECT_EQ(picture.height, 8);  // the camera is square
+  EXPECT_NEAR(picture.data.front(), 0.36f, 1e-3f);
+  EXPECT_NEAR(picture.data.front() * picture.number.at("whiteLuminance"), kLuminance * 120, 1e-2f);
+  // One ev100 more is one stop darker.
+  ASSERT_EQ(run({"render", "--size", "8", "--ev100", "5", "-o", path("a.exr")}).code, 0);
+  ASSERT_EQ(run({"render", "--size", "8", "--ev100", "6", "-o", path("b.exr")}).code, 0);
+  EXPECT_NEAR(read_exr(path("a.exr")).data.front() / read_exr(path("b.exr")).data.front(), 2, 1e-4);
+}
+
+TEST_F(MixRender, DefaultPictureAndReport) {
+  const Outcome outcome = run({"render", "b=off", "--size", "16", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["output"], path("wall.png"));
+  EXPECT_EQ(report["camera"], "main");
+  EXPECT_EQ(report["width"], 16);
+  EXPECT_EQ(report["groups"][1]["weight"][0], 0.0);
+  EXPECT_NEAR(report["exposure"]["log_mean"].get<double>(), kLuminance * 100, 1e-3);
+  const Image picture = read_image(path("wall.png"));
+  EXPECT_EQ(picture.width, 16);
+}
+
+TEST_F(MixRender, PictureOnStandardOutput) {
+  const Outcome outcome = run({"render", "--size", "8", "-o", "-"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out.substr(1, 3), "PNG");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(MixRender, PresetsGiveWayToTheCommandLine) {
+  write_file(path("mood.toml"), "others = \"off\"\nexposure = \"+2\"\ncamera = \"main\"\n[mix]\na = 0.5\n");
+  Outcome outcome = run({"render", "--preset", path("mood.toml"), "--size", "8", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["groups"][0]["weight"][0], 0.5);
+  EXPECT_EQ(report["groups"][1]["weight"][0], 0.0);
+  EXPECT_EQ(report["exposure"]["mode"], "auto +2");
+  outcome = run({"render", "--preset", path("mood.toml"), "a=2", "--others", "on", "--exposure", "auto",
+                 "--size", "8", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["groups"][0]["weight"][0], 2.0);
+  EXPECT_EQ(report["groups"][1]["weight"][0], 1.0);
+  EXPECT_EQ(report["exposure"]["mode"], "auto");
+}
+
+TEST_F(MixRender, PictureFromAPointOfOnesOwn) {
+  ASSERT_EQ(run({"render", "--eye", "0,0,-2", "--target", "0,0,0", "--size", "8x8", "--tone", "linear", "-o",
+                 path("x.exr"), "--coverage", path("c.exr")})
+                .code,
+            0);
+  for (const float v : read_exr(path("x.exr")).data) EXPECT_EQ(v, 0);  // the wall's back
+  EXPECT_EQ(read_exr(path("c.exr")).stride(), 1u);
+}
+
+TEST_F(MixRender, BadRequestsAreOneLineAndLeaveNothing) {
+  const std::string out = path("x.png");
+  expect_error({"render", "--size", "0x0", "-o", out}, 2, "0x0");
+  expect_error({"render", "--camera", "maim", "-o", out}, 2, "did you mean 'main'");
+  expect_error({"render", "c=1", "-o", out}, 2, "unknown light group 'c'");
+  expect_error({"render", "a=dim", "-o", out}, 2, "'dim'");
+  expect_error({"render", "a=2700K,#ff0000", "-o", out}, 2, "two colours");
+  expect_error({"render", "--tone", "agxx", "-o", out}, 2, "agx");
+  expect_error({"render", "--device", "gl", "-o", out}, 2, "cpu");
+  expect_error({"render", "--exposure", "1", "--ev100", "1", "-o", out}, 2, "exclude");
+  expect_error({"render", "--eye", "1,2,3", "-o", out}, 2, "--target");
+  expect_error({"render", "-o", path("x.gif")}, 2, ".png");
+  expect_error({"render", "-o", path("no/x.png")}, 1, "no/x.png");
+  expect_error({"mix", "-o", path("no/x.exr")}, 1, "no/x.exr");
+  expect_error({"mix", "-o", path("x.png")}, 2, ".exr");
+  expect_error({"mix"}, 2, "-o");
+  EXPECT_EQ(files(), 1u);
+}
+
+// A file-size limit stands in for a full disk.
+TEST_F(MixRender, FullDiskLeavesNothing) {
+  write_package(package(), test_package(2, 2, 128, 128));
+  const Outcome full = run_sconce({"mix", package(), "-o", path("x.exr")}, "ulimit -f 2; trap '' XFSZ;");
+  EXPECT_EQ(full.code, 1) << full.err;
+  EXPECT_NE(full.err.find("x.0.exr: cannot be written"), std::string::npos) << full.err;
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(MixRender, DamagedPackageIsNamed) {
+  std::filesystem::resize_file(path("wall.sconce/layers/b.0.exr"), 100);
+  expect_error({"render", "-o", path("x.png")}, 1, "layers/b.0.exr");
+  std::filesystem::remove(path("wall.sconce/manifest.json"));
+  expect_error({"mix", "-o", path("x.exr")}, 1, "no sconce package");
+}
+
+}  // namespace
+}  // namespace sconce
