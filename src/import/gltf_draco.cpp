@@ -72,6 +72,10 @@ void check_stream(const json& root, const json& primitive, const char* data, std
 
 }  // namespace
 
+bool is_draco(const json& primitive) {
+  return primitive.contains("extensions") && primitive.at("extensions").contains(kDraco);
+}
+
 void check_draco(json& root, const std::vector<Bytes>& buffers, const std::vector<bool>& missing,
                  const std::string& where) {
   if (!root.contains("meshes")) return;
@@ -82,7 +86,7 @@ void check_draco(json& root, const std::vector<Bytes>& buffers, const std::vecto
     std::size_t p = 0;
     for (json& primitive : mesh.at("primitives")) {
       const std::string place = mesh_place + ".primitives[" + std::to_string(p++) + "]";
-      if (!primitive.contains("extensions") || !primitive.at("extensions").contains(kDraco)) continue;
+      if (!is_draco(primitive)) continue;
       const json& draco = primitive.at("extensions").at(kDraco);
       if (!primitive.contains("attributes") || !draco.contains("attributes") || !draco.contains("bufferView"))
         throw Error(place, "Draco compression without attributes or bufferView");

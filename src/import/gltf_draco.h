@@ -9,6 +9,9 @@
 
 namespace sconce {
 
+/// Is the primitive of a glTF JSON compressed?
+bool is_draco(const nlohmann::json& primitive);
+
 /// Checks every KHR_draco_mesh_compression primitive for what tinygltf trusts blindly: indices, byte ranges,
 /// that the stream decodes, and that its attributes exist and have the accessors' types.
 /// @param missing  buffers that are absent; primitives in them lose their attributes, so that the rest loads

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "import/gltf_parts.h"
 #include "import/gltf_textures.h"
 
 namespace sconce {
 
 namespace {
+
+constexpr const char* kTransform = "KHR_texture_transform";
 
 Rgb color(const std::vector<double>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
@@ -17,18 +21,45 @@ Vec2 pair_of(const tinygltf::Value& object, const char* key, Vec2 otherwise) {
   return {static_cast<float>(x.GetNumberAsDouble()), static_cast<float>(y.GetNumberAsDouble())};
 }
 
-TextureUse texture_use(GltfTextures& textures, const tinygltf::TextureInfo& info, const std::string& place) {
+TextureUse texture_use(GltfTextures& textures, int index, double texcoord, const tinygltf::Value* transform,
+                       const std::string& place) {
   TextureUse use;
-  if (info.index < 0) return use;
-  use.texture = textures.load(info.index, place);
-  use.texcoord = static_cast<uint32_t>(std::max(0, info.texCoord));
-  if (const tinygltf::Value* t = extension(info.extensions, "KHR_texture_transform")) {
-    use.offset = pair_of(*t, "offset", use.offset);
-    use.scale = pair_of(*t, "scale", use.scale);
-    use.rotation = static_cast<float>(number_of(*t, "rotation", 0));
-    use.texcoord = static_cast<uint32_t>(std::max(0.0, number_of(*t, "texCoord", use.texcoord)));
+  if (index < 0) return use;
+  use.texture = textures.load(index, place);
+  if (transform != nullptr) {
+    use.offset = pair_of(*transform, "offset", use.offset);
+    use.scale = pair_of(*transform, "scale", use.scale);
+    use.rotation = static_cast<float>(number_of(*transform, "rotation", 0));
+    texcoord = number_of(*transform, "texCoord", texcoord);
   }
+  use.texcoord = static_cast<uint32_t>(std::clamp(texcoord, 0.0, 1e6));
   return use;
+}
+
+TextureUse texture_use(GltfTextures& textures, const tinygltf::TextureInfo& info, const std::string& place) {
+  return texture_use(textures, info.index, info.texCoord, extension(info.extensions, kTransform), place);
+}
+
+/// KHR_materials_pbrSpecularGlossiness: its diffuse part.
+void read_diffuse(const tinygltf::Value& e, GltfTextures& textures, const std::string& place, Material& out) {
+  out.metallic = 0;
+  out.metallic_roughness_texture = {};
+  out.base_color = Rgb(1);
+  if (e.Has("diffuseFactor") && e.Get("diffuseFactor").ArrayLen() == 4) {
+    const auto at = [&](int i) {
+      return static_cast<float>(e.Get("diffuseFactor").Get(i).GetNumberAsDouble());
+    };
+    out.base_color = {at(0), at(1), at(2)};
+    out.alpha = at(3);
+  }
+  if (!e.Has("diffuseTexture") || !e.Get("diffuseTexture").IsObject()) return;
+  const tinygltf::Value& info = e.Get("diffuseTexture");
+  const tinygltf::Value& extensions = info.Get("extensions");
+  const bool moved = extensions.Has(kTransform) && extensions.Get(kTransform).IsObject();
+  out.base_color_texture =
+      texture_use(textures, static_cast<int>(number_of(info, "index", -1)), number_of(info, "texCoord", 0),
+                  moved ? &extensions.Get(kTransform) : nullptr, place);
+  if (!out.base_color_texture.texture) out.base_color *= kMissingTextureGrey;
 }
 
 Material read_material(const GltfSource& source, const tinygltf::Material& m, GltfTextures& textures,
@@ -48,6 +79,8 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
   if (out.metallic > 0)
     out.metallic_roughness_texture =
         texture_use(textures, pbr.metallicRoughnessTexture, place + ".metallicRoughness");
+  if (const tinygltf::Value* e = extension(m.extensions, "KHR_materials_pbrSpecularGlossiness"))
+    read_diffuse(*e, textures, place + ".diffuseTexture", out);
 
   if (const auto emission = numbers(source, m.emissiveFactor, 3, place + ".emissiveFactor"))
     out.emission = color(*emission);

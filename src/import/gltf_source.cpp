@@ -2,6 +2,7 @@
 #include "import/gltf_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -21,9 +22,13 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 200;
 
-const std::vector<std::string> kUnderstood = {"KHR_draco_mesh_compression",      "KHR_lights_punctual",
-                                              "KHR_materials_emissive_strength", "KHR_materials_unlit",
-                                              "KHR_mesh_quantization",           "KHR_texture_transform"};
+const std::vector<std::string> kUnderstood = {"KHR_draco_mesh_compression",
+                                              "KHR_lights_punctual",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_materials_pbrSpecularGlossiness",
+                                              "KHR_materials_unlit",
+                                              "KHR_mesh_quantization",
+                                              "KHR_texture_transform"};
 
 json parse_json(const std::string& text, const std::string& where) {
   const auto limit_depth = [&](int depth, json::parse_event_t, json&) {
@@ -132,18 +137,56 @@ std::vector<GltfImage> read_images(const json& root) {
   return out;
 }
 
+/// 1.0 is an integer, too: JSON knows no difference, tinygltf does.
+void whole_numbers(json& node) {
+  if (node.is_structured()) {
+    for (json& child : node) whole_numbers(child);
+  } else if (node.is_number_float()) {
+    const double v = node.get<double>();
+    if (v >= 0 && v <= 0x1p53 && v == std::floor(v)) node = static_cast<uint64_t>(v);
+  }
+}
+
+/// Where a primitive's indices are, kept from tinygltf: it refuses accessors without a view, which are zeros.
+struct KeptIndices {
+  std::size_t mesh, primitive;
+  int accessor;
+};
+
+/// tinygltf drops a primitive that it cannot read without a word, and those after it would take its place.
+void check_primitive(const json& primitive, const std::string& place) {
+  if (!primitive.is_object() || !primitive.contains("attributes") || !primitive.at("attributes").is_object())
+    throw Error(place, "has no attributes");
+  for (const auto& [name, accessor] : primitive.at("attributes").items())
+    if (!accessor.is_number_integer()) throw Error(place + "." + name, "is no accessor index");
+}
+
 /// Leaves to tinygltf what it reads safely and what is of use: no pictures, animations, skins or morph
 /// targets.
-void simplify(json& root, const std::vector<Bytes>& buffers) {
+std::vector<KeptIndices> simplify(json& root, const std::vector<Bytes>& buffers, const std::string& where) {
+  std::vector<KeptIndices> kept;
   for (const char* key : {"images", "animations", "skins"}) root.erase(key);
-  if (root.contains("meshes"))
-    for (json& mesh : root.at("meshes"))
-      if (mesh.is_object() && mesh.contains("primitives"))
-        for (json& primitive : mesh.at("primitives"))
-          if (primitive.is_object()) primitive.erase("targets");
-  if (root.contains("buffers"))
-    for (std::size_t i = 0; i < buffers.size(); ++i)
-      root.at("buffers").at(i) = {{"byteLength", buffers[i].size()}, {"uri", "buffer:" + std::to_string(i)}};
+  json none = json::array();
+  json& meshes = root.contains("meshes") ? root.at("meshes") : none;
+  if (!meshes.is_array()) throw Error(where, "meshes is no array");
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const std::string place = where + ": meshes[" + std::to_string(m) + "]";
+    if (!meshes.at(m).is_object()) throw Error(place, "is no object");
+    if (!meshes.at(m).contains("primitives")) continue;
+    json& primitives = meshes.at(m).at("primitives");
+    if (!primitives.is_array()) throw Error(place, "primitives is no array");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      json& primitive = primitives.at(p);
+      check_primitive(primitive, place + ".primitives[" + std::to_string(p) + "]");
+      primitive.erase("targets");
+      if (!primitive.contains("indices") || is_draco(primitive)) continue;
+      kept.push_back({m, p, primitive.at("indices").get<int>()});
+      primitive.erase("indices");
+    }
+  }
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+    root.at("buffers").at(i) = {{"byteLength", buffers[i].size()}, {"uri", "buffer:" + std::to_string(i)}};
+  return kept;
 }
 
 }  // namespace
@@ -179,7 +222,9 @@ GltfSource open_gltf(const fs::path& path, const Progress& progress) {
   GltfSource out;
   out.path = path;
   std::vector<Bytes> buffers;
+  std::vector<KeptIndices> indices;
   try {
+    whole_numbers(root);
     check_version(root, where);
     check_extensions(root, where, progress);
     if (root.contains("buffers")) {
@@ -193,11 +238,13 @@ GltfSource open_gltf(const fs::path& path, const Progress& progress) {
     }
     out.images = read_images(root);
     check_draco(root, buffers, out.buffer_missing, where);
-    simplify(root, buffers);
+    indices = simplify(root, buffers, where);
   } catch (const json::exception& e) {
     throw Error(where, std::string("is no valid glTF: ") + e.what());
   }
   out.model = parse_gltf_model(root.dump(), buffers, where);
+  for (const KeptIndices& k : indices)
+    out.model.meshes.at(k.mesh).primitives.at(k.primitive).indices = k.accessor;
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "import/import.h"
+#include "import/mtl_filter.h"
 #include "import/obj_materials.h"
 
 namespace sconce {
@@ -74,6 +75,7 @@ Scene import_obj(const std::filesystem::path& path, const Progress& progress) {
       progress.warn(path.string() + ": material file " + mtl.string() + " is missing; grey is used");
   }
   Assimp::Importer importer;
+  importer.SetIOHandler(new MtlFilter);  // the importer owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* read =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/test_data.h"
+#include "import/test_files.h"
+#include "scene/world.h"
+
+namespace sconce {
+namespace {
+
+std::size_t triangles_of(const Scene& scene) {
+  std::size_t n = 0;
+  for (const Instance& i : scene.instances) n += scene[i.mesh].triangles.size();
+  return n;
+}
+
+TEST(Obj, GroupsMaterialsAndCoordinates) {
+  const TestFolder folder;
+  folder.write("a b.mtl",
+               "newmtl red\nKd 0.8 0.1 0.2\nmap_Kd -clamp on tile.png\nnewmtl lamp\nKd 0 0 0\nKe 17 12 4\n"
+               "newmtl glass\nKd 1 1 1\nd 0.3\n");
+  const auto path = folder.write(
+      "box.obj",
+      "mtllib a b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+      "g floor\nusemtl red\nf 1/1/1 2/2/1 3/3/1 4/4/1\ng light\nusemtl lamp\nf 1 3 2\n"
+      "g pane\nusemtl glass\nf 1 2 3\n");
+  Warnings w;
+  const Scene scene = import_obj(path, w.progress);
+  ASSERT_EQ(scene.instances.size(), 3u);
+  EXPECT_EQ(scene.instances[0].name, "floor");
+  EXPECT_EQ(scene.instances[1].name, "light");
+  const Mesh& floor = scene[scene.instances[0].mesh];
+  EXPECT_EQ(floor.triangles.size(), 2u);
+  ASSERT_EQ(floor.texcoords.size(), 1u);
+  EXPECT_EQ(floor.normals.at(0), Vec3(0, 0, 1));
+  for (std::size_t i = 0; i < floor.positions.size(); ++i)  // row 0 of a picture is v = 0
+    EXPECT_EQ(floor.texcoords[0][i], Vec2(floor.positions[i].x, 1 - floor.positions[i].y));
+  const Material& red = scene[floor.material];
+  EXPECT_EQ(red.name, "red");
+  EXPECT_EQ(red.base_color, Rgb(0.4f, 0.05f, 0.1f));  // its texture is missing: half
+  EXPECT_TRUE(red.double_sided);
+  EXPECT_TRUE(w.any("texture tile.png is left out"));
+  const Material& lamp = scene[scene[scene.instances[1].mesh].material];
+  EXPECT_EQ(lamp.emission, Rgb(17, 12, 4));
+  EXPECT_FALSE(lamp.double_sided);
+  EXPECT_TRUE(w.any("'glass' is transparent"));
+  EXPECT_EQ(scene_files(path), std::vector<std::filesystem::path>{folder.path() / "a b.mtl"});
+}
+
+TEST(Obj, MissingMaterialFileIsNamed) {
+  const TestFolder folder;
+  Warnings w;
+  const Scene scene = import_scene(
+      folder.write("x.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"), w.progress);
+  EXPECT_EQ(triangles_of(scene), 1u);
+  EXPECT_TRUE(w.any("gone.mtl is missing"));
+  EXPECT_THROW(import_obj(folder.write("x.txt", "v 0 0 0")), NotMyFormat);
+  EXPECT_THROW(import_scene(folder.write("empty.obj", "")), Error);
+}
+
+TEST(Obj, CornellBoxOfMcGuire) {
+  const auto path = test_data() / "scenes/cornell-mcguire/CornellBox-Original.obj";
+  SCONCE_NEEDS_DATA(path);
+  Warnings w;
+  const Scene scene = import_scene(path, w.progress);
+  EXPECT_EQ(make_world(scene).size(), 36u);
+  int lamps = 0;
+  for (const Instance& i : scene.instances) {
+    if (!scene.emits(i)) continue;
+    ++lamps;
+    EXPECT_EQ(scene[scene[i.mesh].material].emission, Rgb(17, 12, 4));
+    EXPECT_EQ(i.name, "light");
+  }
+  EXPECT_EQ(lamps, 1);
+}
+
+TEST(Obj, AllCornellBoxesAndTinyobj) {
+  for (const char* folder : {"scenes/cornell-mcguire", "conformance/tinyobj"}) {
+    const auto root = test_data() / folder;
+    SCONCE_NEEDS_DATA(root);
+    for (const auto& entry : std::filesystem::directory_iterator(root)) {
+      if (entry.path().extension() != ".obj") continue;
+      const std::string stem = entry.path().stem().string();
+      const std::string error = error_of([&] { import_scene(entry.path()); });
+      const bool no_faces = stem == "points-prim" || stem == "line-prim";
+      EXPECT_EQ(error.empty(), !no_faces) << entry.path() << error;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sconce

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/kelvin.h"
+#include "image/io.h"
+#include "import/test_files.h"
+#include "scene/groups.h"
+
+namespace sconce {
+namespace {
+
+/// Two squares of 1 m and 2 m edge with a material each, a lamp and a camera.
+const char* kRoom = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5,"material":0}]},
+  {"primitives":[{"attributes":{"POSITION":0},"mode":5,"material":1}]}],
+  "nodes":[{"name":"globe.001","mesh":0},{"name":"globe.002","mesh":0,"scale":[2,2,2],"translation":[5,0,0]},{"name":"wall","mesh":1},
+  {"name":"Spot","translation":[0,3,0],"extensions":{"KHR_lights_punctual":{"light":0}}},{"name":"main","camera":0}],
+  "materials":[{"name":"glass","emissiveFactor":[1,1,1]},{"name":"plaster"}],
+  "cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],
+  "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":100,"color":[1,0.5,0.5],
+  "spot":{"innerConeAngle":0.2,"outerConeAngle":0.5}}]}})";
+
+struct Room {
+  TestFolder folder;
+  Warnings warnings;
+
+  Scene with(const std::string& side) {
+    GltfBuilder b;
+    b.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+    const auto path = folder.write("room.gltf", b.json(kRoom));
+    folder.write("room.toml", side);
+    return import_scene(path, warnings.progress);
+  }
+  std::string error(const std::string& side) {
+    return error_of([&] { with(side); });
+  }
+};
+
+TEST(SideFile, AddsLights) {
+  Room room;
+  const Scene scene = room.with(R"(
+[[light]]
+name = "pendant"
+type = "point"
+position = [1, 2, 3]
+lumens = 800
+kelvin = 2700
+range = 4
+group = "table"
+
+[[light]]
+name = "beam"
+type = "spot"
+position = [0, 2, 0]
+target = [0, 0, 0]
+lumens = 100
+inner = 10
+outer = 30
+
+[[light]]
+type = "sun"
+direction = [0, -1, -1]
+intensity = 50000
+color = "#ff8000"
+
+[options]
+quality = "final"
+)");
+  ASSERT_EQ(scene.lights.size(), 4u);
+  const Light& pendant = scene.lights[1];
+  EXPECT_EQ(pendant.group_name, "table");
+  EXPECT_NEAR(luminance(pendant.intensity), 800 / (4 * kPi), 1e-2);
+  EXPECT_NEAR(pendant.intensity.r / luminance(pendant.intensity), kelvin_color(2700).r, 1e-4);
+  EXPECT_EQ(std::get<PointLight>(pendant.shape).range, 4);
+  const Light& beam = scene.lights[2];
+  const double inner = std::cos(10 * M_PI / 180), outer = std::cos(30 * M_PI / 180);
+  EXPECT_NEAR(beam.intensity.g, 100 / (2 * M_PI * ((1 - inner) + (inner - outer) / 3)), 1e-2);
+  EXPECT_NEAR(-beam.frame[2].y, -1, 1e-6);
+  const Light& sun = scene.lights[3];
+  EXPECT_NEAR(luminance(sun.intensity), 50000, 1);  // whatever the colour
+  EXPECT_GT(sun.intensity.r, sun.intensity.g);
+  EXPECT_NEAR(-sun.frame[2].z, -std::sqrt(0.5), 1e-6);
+}
+
+TEST(SideFile, OverridesOnlyWhatItNames) {
+  Room room;
+  const Scene scene = room.with("[[light]]\nname = \"Spot\"\nintensity = 10\ngroup = \"x\"\n");
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const Light& spot = scene.lights[0];
+  EXPECT_NEAR(luminance(spot.intensity), 10, 1e-5);
+  EXPECT_NEAR(spot.intensity.g / spot.intensity.r, 0.5, 1e-5);  // its colour stays
+  EXPECT_FLOAT_EQ(std::get<SpotLight>(spot.shape).outer, 0.5f);
+  EXPECT_EQ(spot.frame[3].y, 3);
+  EXPECT_EQ(spot.group_name, "x");
+  const Scene white = room.with("[[light]]\nname = \"Spot\"\nkelvin = 6504\n");
+  EXPECT_NEAR(white.lights[0].intensity.r, luminance(Rgb(100, 50, 50)), 1e-3);  // its strength stays
+}
+
+TEST(SideFile, GroupsByGlobs) {
+  Room room;
+  Scene scene = room.with("[group.bulbs]\nnodes = [\"globe*\"]\n[group.\"the spots\"]\nlights = \"Sp?t\"\n");
+  assign_groups(scene, Grouping::named);
+  ASSERT_EQ(scene.groups.size(), 2u);
+  EXPECT_EQ(scene.groups[0].name, "bulbs");
+  EXPECT_EQ(scene.groups[1].name, "the spots");
+  scene = room.with("[group.glow]\nmaterials = [\"gl*\"]\n[group.none]\nnodes = [\"glob\"]\n");
+  EXPECT_EQ(scene.instances[1].group_name, "glow");
+  EXPECT_EQ(scene.instances[2].group_name, "");
+  EXPECT_TRUE(room.warnings.any("'glob' matches nothing"));
+}
+
+TEST(SideFile, EmissionOfMaterialsAndNodes) {
+  Room room;
+  const Scene level = room.with("[[emission]]\nmaterial = \"glass\"\nluminance = 500\ncolor = [2, 1, 0]\n");
+  EXPECT_NEAR(luminance(level.materials[0].emission), 500, 1e-2);
+  EXPECT_NEAR(level.materials[0].emission.r / level.materials[0].emission.g, 2, 1e-5);
+
+  // 1 m2 and 4 m2 of it: 5 m2.
+  const Scene flux = room.with("[[emission]]\nmaterial = \"glass\"\nlumens = 1000\n");
+  EXPECT_NEAR(flux.materials[0].emission.r, 1000 / (kPi * 5), 1e-2);
+
+  // One node of the two that share the material.
+  const Scene one = room.with(
+      "[[emission]]\nnode = \"globe.002\"\nlumens = 1000\ngroup = "
+      "\"big\"\n[[material]]\nmatch=\"plaster\"\ndouble_sided=true\n");
+  EXPECT_EQ(one.materials[0].emission, Rgb(1));
+  EXPECT_NEAR(one[one[one.instances[1].mesh].material].emission.r, 1000 / (kPi * 4), 1e-2);
+  EXPECT_EQ(one.instances[1].group_name, "big");
+  EXPECT_EQ(one.instances[0].group_name, "");
+  EXPECT_TRUE(one.materials[1].double_sided);
+
+  const Scene wall = room.with(
+      "[[material]]\nmatch=\"plaster\"\ndouble_sided=true\nbase_color=\"#ffffff\"\n[[emission]]\nnode = "
+      "\"wall\"\nlumens = 100\nkelvin = 6504\n");
+  EXPECT_NEAR(wall[wall[wall.instances[2].mesh].material].emission.g, 100 / (2 * kPi), 1e-3);  // both sides
+  EXPECT_EQ(wall.materials[1].base_color, Rgb(1));
+}
+
+TEST(SideFile, CamerasAndSky) {
+  Room room;
+  Image image = Image::rgb(4, 2);
+  image.set_rgb(1, 0, {2, 3, 4});
+  write_exr(room.folder.path() / "env.exr", image, PixelType::full);
+  const Scene scene = room.with(R"(
+[[camera]]
+name = "main"
+hfov = 90
+[[camera]]
+name = "door"
+eye = [0, 1.6, 3]
+target = [0, 1.6, 0]
+fov = 60
+aspect = 1.5
+[sky]
+file = "env.exr"
+intensity = 10
+rotate = 90
+)");
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  EXPECT_NEAR(scene.cameras[0].yfov, 2 * std::atan(0.5f), 1e-5);
+  EXPECT_NEAR(scene.cameras[1].yfov, kPi / 3, 1e-5);
+  EXPECT_NEAR(-scene.cameras[1].frame[2].z, -1, 1e-6);
+  const Light& sky = scene.lights.back();
+  EXPECT_EQ(sky.group_name, "sky");
+  EXPECT_EQ(sky.intensity, Rgb(10));
+  EXPECT_EQ(std::get<SkyLight>(sky.shape).image.rgb_at(1, 0), Rgb(2, 3, 4));
+  // The picture's centre, -z of its frame, turned counter-clockwise seen from above: now at -x.
+  EXPECT_NEAR(-sky.frame[2].x, -1, 1e-6);
+  EXPECT_EQ(scene_files(room.folder.path() / "room.gltf").size(), 2u);
+
+  const Scene plain = room.with("[sky]\nluminance = 3000\nkelvin = 6504\n");
+  EXPECT_NEAR(plain.lights.back().intensity.b, 3000, 1);
+  EXPECT_NE(room.error("[sky]\nfile = \"gone.exr\"\n").find("gone.exr"), std::string::npos);
+}
+
+TEST(SideFile, ErrorsNameLineKeyAndChoices) {
+  Room room;
+  const std::string unknown = room.error("\n[[light]]\nname = \"a\"\nintensty = 3\n");
+  EXPECT_NE(unknown.find("room.toml:4: unknown key 'intensty' in [[light]]; did you mean 'intensity'? "
+                         "(allowed: name, type,"),
+            std::string::npos)
+      << unknown;
+  EXPECT_NE(room.error("[lights]\n").find("unknown key 'lights'"), std::string::npos);
+  EXPECT_NE(room.error("[[light]]\nname = = 3\n").find("room.toml:2"), std::string::npos);
+  EXPECT_NE(room.error("[[light]]\ntype = \"lamp\"\n").find("point, spot, sun"), std::string::npos);
+  EXPECT_NE(room.error("[[light]]\ntype = \"point\"\nintensity = 1\n").find("has no position"),
+            std::string::npos);
+  EXPECT_NE(room.error("[[light]]\ntype = \"point\"\nposition = [0, 1]\nintensity = 1\n").find("[x, y, z]"),
+            std::string::npos);
+  EXPECT_NE(room.error("[[light]]\ntype = \"sun\"\nlumens = 1\n").find("lux"), std::string::npos);
+  EXPECT_NE(room.error("[[light]]\nname = \"Spot\"\nkelvin = 100\n").find("1000 to 11000"),
+            std::string::npos);
+  EXPECT_NE(room.error("[[light]]\nname = \"Spot\"\ncolor = \"red\"\n").find("#rrggbb"), std::string::npos);
+  EXPECT_NE(room.error("[[light]]\nname = \"Spot\"\nouter = 100\n").find("90"), std::string::npos);
+  EXPECT_NE(room.error("[group.all]\nnodes = []\n").find("reserved"), std::string::npos);
+  EXPECT_NE(room.error("[[camera]]\nname = \"new\"\n").find("eye"), std::string::npos);
+  EXPECT_NE(room.error("[sky]\nrotate = 3\n").find("luminance"), std::string::npos);
+  EXPECT_NE(room.error("[[emission]]\nlumens = 3\n").find("material"), std::string::npos);
+  EXPECT_NE(room.error("light = 3\n").find("no table"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sconce
