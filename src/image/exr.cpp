@@ -23,6 +23,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "image/exr.h"
 #include "image/exr_stream.h"
 #include "image/io.h"
 
@@ -232,15 +233,17 @@ void write_half(Imf::OutputFile& file, const Image& image) {
 
 }  // namespace
 
-Image read_exr(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  if (bytes.size() < 4 || bytes.compare(0, 4, "\x76\x2f\x31\x01", 4) != 0)
-    throw NotMyFormat(path.string(), "is not an OpenEXR file");
+Image decode_exr(const std::string& bytes, const std::string& where) {
+  if (!is_exr(bytes)) throw NotMyFormat(where, "is not an OpenEXR file");
   try {
     return read_first_part(bytes);
   } catch (const std::exception& e) {
-    throw Error(path.string(), "damaged or unsupported OpenEXR: " + one_line(e.what()));
+    throw Error(where, "damaged or unsupported OpenEXR: " + one_line(e.what()));
   }
+}
+
+Image read_exr(const std::filesystem::path& path) {
+  return decode_exr(read_file(path), path.string());
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, PixelType type) {

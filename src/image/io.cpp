@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "image/exr.h"
 #include "image/hdr.h"
 #include "image/ldr.h"
 #include "image/primaries.h"
@@ -11,14 +12,18 @@ namespace sconce {
 
 Image read_image(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  if (bytes.compare(0, 4, "\x76\x2f\x31\x01", 4) == 0) {
-    Image image = read_exr(path);
+  if (is_exr(bytes)) {
+    Image image = decode_exr(bytes, path.string());
     to_rec709(image);
     return image;
   }
   const std::span<const unsigned char> data(reinterpret_cast<const unsigned char*>(bytes.data()),
                                             bytes.size());
-  if (bytes.compare(0, 2, "#?") == 0) return decode_hdr(data, path.string());
+  if (bytes.starts_with("#?")) {
+    Image image = decode_hdr(data, path.string());
+    to_rec709(image);
+    return image;
+  }
   try {
     return decode_linear(data, path.string());
   } catch (const NotMyFormat&) {
