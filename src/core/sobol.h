@@ -49,10 +49,10 @@ constexpr float to_unit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-2
 
 /// Pair `pair` of point `index` of the sequence that (seed, receiver) name. Pure; any order of calls.
 inline Vec2 sobol_pair(uint32_t index, uint32_t pair, uint32_t stream) {
-  const uint32_t key = mix32(stream, pair);
+  const uint32_t key = mix32(stream ^ (pair * 0x9e3779b9u));
   const uint32_t shuffled = detail::owen(index, key);
-  const uint32_t x = detail::owen_reversed(shuffled, mix32(key, 1u));
-  const uint32_t y = detail::owen_reversed(detail::sobol1_reversed(shuffled), mix32(key, 2u));
+  const uint32_t x = detail::owen_reversed(shuffled, mix32(key + 1));
+  const uint32_t y = detail::owen_reversed(detail::sobol1_reversed(shuffled), mix32(key + 2));
   return {detail::to_unit(detail::reverse_bits(x)), detail::to_unit(detail::reverse_bits(y))};
 }
 

@@ -47,6 +47,9 @@ struct MeshLamp {
   struct Piece {         ///< part of a triangle, small enough that its emission is nearly uniform
     uint32_t triangle;
     Vec2 b0, b1, b2;     ///< barycentric corners
+    Vec3 p0, e1, e2;     ///< corner and edges, world
+    Vec3 normal;
+    Rgb emission;        ///< cd/m2, where it does not vary over the lamp
     float density;       ///< probability per m2 of a point of this piece
   };
   std::vector<Piece> pieces;
@@ -60,6 +63,7 @@ struct MeshLamp {
   float plane = 0;       ///< no part of a flat lamp lies below dot(axis, p) = plane
   double area = 0;       ///< m2, one side
   bool two_sided = false;
+  bool uniform = false;  ///< no emission texture, no alpha mask
 };
 
 using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp>;
@@ -70,6 +74,18 @@ struct Lamp {
   LampShape shape;
   Rgb flux;               ///< lm per channel (Rec. 709); for sun and sky lux and pi x mean cd/m2
   bool infinite = false;  ///< sun or sky
+};
+
+/// Where a lamp is and where it can shine, for a quick bound: a sphere, cut by a plane or a cone.
+struct LampBound {
+  Vec3 center{0};
+  float radius = 0;
+  Vec3 axis{0};          ///< of the plane or cone; for a sun the direction towards it
+  float plane = 0;       ///< nothing below dot(axis, x) = plane is lit; with axis 0 everything is
+  float cos_cone = -2;   ///< nothing outside this cone about the axis; -2 = no cone
+  float least2 = 0;      ///< squared distance below which importance no longer grows
+  float range2 = 1e38f;
+  enum class Kind : uint8_t { near, sun, everywhere } kind = Kind::near;
 };
 
 /// All lamps of a scene with what look-ups need. The scene and world must outlive it.
@@ -98,7 +114,16 @@ class Lamps {
 
   /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric bound, never its
   /// strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the cone). Dimensionless.
-  float importance(std::size_t i, const Vec3& x, const Vec3& n) const;
+  float importance(std::size_t i, const Vec3& x, const Vec3& n) const {
+    const LampBound& b = bounds_[i];
+    if (b.kind != LampBound::Kind::near)
+      return b.kind == LampBound::Kind::everywhere || glm::dot(b.axis, n) > 0 ? 1.0f : 0.0f;
+    const Vec3 to = b.center - x;
+    if (glm::dot(to, n) <= -b.radius || glm::dot(b.axis, x) < b.plane) return 0.0f;
+    const float d2 = glm::dot(to, to);
+    if (d2 >= b.range2 || (b.cos_cone > -2 && -glm::dot(to, b.axis) <= b.cos_cone * std::sqrt(d2))) return 0.0f;
+    return scene_radius2_ / std::max(d2, b.least2);
+  }
 
  private:
   const Scene* scene_;
@@ -106,7 +131,8 @@ class Lamps {
   std::vector<Lamp> lamps_;
   std::vector<int> lamp_of_;
   std::vector<uint32_t> skies_;
-  float scene_radius_;
+  std::vector<LampBound> bounds_;
+  float scene_radius2_;
 };
 
 /// What a fader needs to know of a group's lamps (contract.md, "Colour").

@@ -25,10 +25,39 @@ Lamp make_lamp(const Light& light) {
                     light.shape);
 }
 
+LampBound bound_of(const Lamp& lamp, float scene_radius2) {
+  constexpr float kLargest = 100;  // importance at which a lamp is near enough
+  LampBound bound;
+  std::visit(Overload{[&](const PunctualLamp& l) {
+                        bound.center = l.position;
+                        if (l.range > 0) bound.range2 = l.range * l.range;
+                        bound.plane = -1e38f;
+                        if (l.cos_outer > -1) {
+                          bound.axis = l.axis;
+                          bound.cos_cone = l.cos_outer;
+                        }
+                      },
+                      [&](const SunLamp& l) {
+                        bound.kind = LampBound::Kind::sun;
+                        bound.axis = l.direction;
+                      },
+                      [&](const SkyLamp&) { bound.kind = LampBound::Kind::everywhere; },
+                      [&](const MeshLamp& l) {
+                        bound.center = l.center;
+                        bound.radius = l.radius;
+                        bound.axis = l.axis;
+                        bound.plane = l.plane;
+                      }},
+             lamp.shape);
+  bound.least2 = std::max(bound.radius * bound.radius, scene_radius2 / kLargest);
+  return bound;
+}
+
 }  // namespace
 
-Lamps::Lamps(const Scene& scene, const World& world)
-    : scene_(&scene), world_(&world), scene_radius_(std::max(1e-6f, 0.5f * world.bounds.diagonal())) {
+Lamps::Lamps(const Scene& scene, const World& world) : scene_(&scene), world_(&world) {
+  const float radius = std::max(1e-6f, 0.5f * world.bounds.diagonal());
+  scene_radius2_ = radius * radius;
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<SkyLight>(light.shape)) skies_.push_back(static_cast<uint32_t>(lamps_.size()));
     lamps_.push_back(make_lamp(light));
@@ -43,6 +72,7 @@ Lamps::Lamps(const Scene& scene, const World& world)
     }
     t = end;
   }
+  for (const Lamp& lamp : lamps_) bounds_.push_back(bound_of(lamp, scene_radius2_));
 }
 
 std::optional<LightSample> Lamps::sample(std::size_t i, const Vec3& x, Vec2 u) const {
@@ -71,28 +101,6 @@ Rgb Lamps::sky_radiance(std::size_t i, const Vec3& direction) const {
 
 float Lamps::sky_pdf(std::size_t i, const Vec3& direction) const {
   return sconce::pdf(std::get<SkyLamp>(lamps_[i].shape), direction);
-}
-
-float Lamps::importance(std::size_t i, const Vec3& x, const Vec3& n) const {
-  constexpr float kLargest = 100;
-  const float r2 = scene_radius_ * scene_radius_;
-  return std::visit(
-      Overload{[&](const PunctualLamp& l) {
-                 const Vec3 to = l.position - x;
-                 const float d2 = glm::dot(to, to);
-                 if (glm::dot(to, n) <= 0 || (l.range > 0 && d2 >= l.range * l.range)) return 0.0f;
-                 if (l.cos_outer > -1 && -glm::dot(to, l.axis) <= l.cos_outer * std::sqrt(d2)) return 0.0f;
-                 return std::min(kLargest, r2 / std::max(d2, 1e-12f));
-               },
-               [&](const SunLamp& l) { return glm::dot(l.direction, n) > 0 ? 1.0f : 0.0f; },
-               [&](const SkyLamp&) { return 1.0f; },
-               [&](const MeshLamp& l) {
-                 const Vec3 to = l.center - x;
-                 if (glm::dot(to, n) <= -l.radius) return 0.0f;
-                 if (glm::dot(l.axis, x) < l.plane) return 0.0f;  // behind; axis 0: never, plane is 0
-                 return std::min(kLargest, r2 / std::max(glm::dot(to, to), l.radius * l.radius));
-               }},
-      lamps_[i].shape);
 }
 
 std::vector<GroupFlux> group_flux(const Scene& scene, const Lamps& lamps) {

@@ -24,11 +24,15 @@ double texels_along(const Scene& scene, const World& world, const Material& mate
   return std::isfinite(longest) ? longest : 0;
 }
 
+bool is_uniform(const Material& material) {
+  return !material.emission_texture.texture.valid() && material.alpha_mode != Material::Alpha::mask;
+}
+
 }  // namespace
 
 Rgb emission_at(const Scene& scene, const World& world, uint32_t triangle, Vec2 barycentric) {
   const Material& material = scene[world.materials[triangle]];
-  if (!material.emission_texture.texture.valid() && material.alpha_mode == Material::Alpha::opaque) return material.emission;
+  if (is_uniform(material)) return material.emission;
   const Shade s = shade(scene, world, triangle, barycentric);
   return material.alpha_mode == Material::Alpha::mask && s.alpha < material.alpha_cutoff ? Rgb() : s.emission;
 }
@@ -39,6 +43,7 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
   MeshLamp lamp;
   lamp.first_triangle = first;
   lamp.two_sided = material.double_sided;
+  lamp.uniform = is_uniform(material);
   lamp.cut.resize(count, 1);
   double pieces = 0;
   for (uint32_t i = 0; i < count; ++i) {
@@ -67,8 +72,16 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
       for (int x = 0; x < n - y; ++x)
         for (int upper = 0; upper < (x + y < n - 1 ? 2 : 1); ++upper) {
           const Vec2 b(static_cast<float>(x) * step, static_cast<float>(y) * step);
-          MeshLamp::Piece piece{t, b, b + Vec2(step, 0), b + Vec2(0, step), 0};
-          if (upper == 1) piece.b0 = b + Vec2(step, step);
+          MeshLamp::Piece piece;
+          piece.triangle = t;
+          piece.b0 = upper == 1 ? b + Vec2(step, step) : b;
+          piece.b1 = b + Vec2(step, 0);
+          piece.b2 = b + Vec2(0, step);
+          piece.p0 = world.position(t, piece.b0);
+          piece.e1 = world.position(t, piece.b1) - piece.p0;
+          piece.e2 = world.position(t, piece.b2) - piece.p0;
+          piece.normal = world.face_normals[t];
+          piece.emission = material.emission;
           Rgb mean;
           for (const Vec2 w : {Vec2(1 / 3.0f), Vec2(0.6f, 0.2f), Vec2(0.2f, 0.6f), Vec2(0.2f)})
             mean += 0.25f * emission_at(scene, world, t, piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
@@ -122,16 +135,18 @@ std::optional<LightSample> sample(const MeshLamp& lamp, const Scene& scene, cons
     b2 *= 0.5f;
     b1 -= b2;
   }
-  const Vec2 b = piece.b0 + b1 * (piece.b1 - piece.b0) + b2 * (piece.b2 - piece.b0);
-  const Vec3 to = world.position(piece.triangle, b) - x;
+  const Vec3 to = piece.p0 + b1 * piece.e1 + b2 * piece.e2 - x;
   const float d2 = glm::dot(to, to);
   if (!(d2 > 1e-14f)) return std::nullopt;
   const float d = std::sqrt(d2);
   const Vec3 direction = to / d;
-  float cosine = -glm::dot(direction, world.face_normals[piece.triangle]);
+  float cosine = -glm::dot(direction, piece.normal);
   if (lamp.two_sided) cosine = std::abs(cosine);
   if (!(cosine > 1e-7f)) return std::nullopt;
-  return LightSample{direction, d, emission_at(scene, world, piece.triangle, b), piece.density * d2 / cosine, false};
+  const Rgb emission = lamp.uniform ? piece.emission
+                                    : emission_at(scene, world, piece.triangle,
+                                                  piece.b0 + b1 * (piece.b1 - piece.b0) + b2 * (piece.b2 - piece.b0));
+  return LightSample{direction, d, emission, piece.density * d2 / cosine, false};
 }
 
 float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,

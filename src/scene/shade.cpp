@@ -24,6 +24,7 @@ const DecodeTables& tables() {
 }
 
 int wrap(int i, int size, Texture::Wrap mode) {
+  if (static_cast<unsigned>(i) < static_cast<unsigned>(size)) return i;
   switch (mode) {
     case Texture::Wrap::clamp:
       return std::clamp(i, 0, size - 1);
@@ -66,14 +67,17 @@ Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool sr
   if (texture.pixels.data.empty()) return {};
   const Vec2 st = use.transform(uv);
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return {};
-  // Beyond 2^20 repeats floats no longer resolve a texel; fold first so that int never overflows.
-  const float u = std::fmod(st.x, 1048576.0f), v = std::fmod(st.y, 1048576.0f);
-  const double x = static_cast<double>(u) * texture.pixels.width, y = static_cast<double>(v) * texture.pixels.height;
-  if (texture.nearest)
-    return fetch(texture, static_cast<int>(std::fmod(std::floor(x), 1e9)), static_cast<int>(std::fmod(std::floor(y), 1e9)), srgb);
-  const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
-  const float wx = static_cast<float>(x - 0.5 - fx), wy = static_cast<float>(y - 0.5 - fy);
-  const int ix = static_cast<int>(std::fmod(fx, 1e9)), iy = static_cast<int>(std::fmod(fy, 1e9));
+  // Fold into one (mirrored: two) periods first, so that any coordinate stays within int.
+  const auto fold = [](float t, Texture::Wrap mode) {
+    if (mode == Texture::Wrap::clamp) return std::clamp(t, -1.0f, 2.0f);
+    return mode == Texture::Wrap::repeat ? t - std::floor(t) : t - 2 * std::floor(0.5f * t);
+  };
+  const float x = fold(st.x, texture.wrap_u) * static_cast<float>(texture.pixels.width);
+  const float y = fold(st.y, texture.wrap_v) * static_cast<float>(texture.pixels.height);
+  if (texture.nearest) return fetch(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), srgb);
+  const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
+  const float wx = x - 0.5f - fx, wy = y - 0.5f - fy;
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const Texel a = fetch(texture, ix, iy, srgb), b = fetch(texture, ix + 1, iy, srgb);
   const Texel c = fetch(texture, ix, iy + 1, srgb), d = fetch(texture, ix + 1, iy + 1, srgb);
   const float wa = (1 - wx) * (1 - wy), wb = wx * (1 - wy), wc = (1 - wx) * wy, wd = wx * wy;
