@@ -22,7 +22,9 @@ TEST(Bathroom, ShippedFileIsWhatTheGeneratorWrites) {
 }
 
 TEST(Bathroom, IsOfTheStatedSize) {
-  const World world = make_world(import_scene(kShipped));
+  const Scene scene = import_scene(kShipped);
+  EXPECT_EQ(scene.instances.size(), make_bathroom().instances.size());
+  const World world = make_world(scene);
   EXPECT_GE(world.size(), 20000u);
   EXPECT_LE(world.size(), 60000u);
   EXPECT_LE(read_file(kShipped).size(), 6u << 20);

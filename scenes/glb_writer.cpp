@@ -9,6 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kLists[] = {"nodes",    "cameras", "meshes",    "materials",
+                                  "textures", "images",  "accessors", "bufferViews"};
+
 enum Target { kArrayBuffer = 34962, kElementArrayBuffer = 34963 };
 enum Component { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
 
@@ -37,6 +40,8 @@ class Writer {
     json_["extensionsUsed"] = {"KHR_materials_emissive_strength"};
     json_["scene"] = 0;
     json_["scenes"] = {{{"name", scene.name}, {"nodes", Json::array()}}};
+    // All keys now: adding one later would move the values that references point to.
+    for (const char* key : kLists) json_[key] = Json::array();
   }
 
   std::string write() {
@@ -49,6 +54,8 @@ class Writer {
       json_["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}}};
     json_["buffers"] = {{{"byteLength", binary_.size()}}};
 
+    for (const char* key : kLists)
+      if (json_[key].empty()) json_.erase(key);
     std::string text = json_.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string out = "glTF";
@@ -131,9 +138,10 @@ class Writer {
   }
 
   Json& node(const std::string& name) {
-    json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
-    json_["nodes"].push_back({{"name", name}});
-    return json_["nodes"].back();
+    Json& nodes = json_["nodes"];
+    json_["scenes"][0]["nodes"].push_back(nodes.size());
+    nodes.push_back({{"name", name}});
+    return nodes.back();
   }
 
   void node(const Instance& instance) {

@@ -9,27 +9,22 @@ namespace {
 
 // Kelvin.
 constexpr double kNeutral = 4000, kWarm = 3000, kSoft = 3500, kDaylight = 7500;
-constexpr float kDownlightLumens = 500, kGlobeLumens = 600, kSlotLumens = 420, kShelfLumens = 180,
+constexpr float kDownlightLumens = 500, kGlobeLumens = 600, kStripLumens = 420, kShelfLumens = 180,
                 kDaylightLumens = 4000;
 
 void add_downlights(Stage& stage) {
   MeshBuilder ring, disk, rings;
-  add_lathe(ring,
-            {{0.066f, -0.018f},
-             {0.070f, -0.040f},
-             {0.074f, -0.042f},
-             {0.080f, -0.040f},
-             {0.082f, -0.036f},
-             {0.082f, 0.0f}},
-            32, 40);
-  add_disk(disk, 0.0665f, 32);
+  // The glowing face is flush with its ring: a lamp in a recess lights little but its own rim, and brightly.
+  constexpr float kGlow = 0.068f, kLow = -0.04f;
+  add_lathe(ring, {{kGlow, kLow}, {0.078f, kLow}, {0.082f, kLow + 0.004f}, {0.082f, 0.0f}}, 32, 40);
+  add_disk(disk, kGlow, 32);
   int count = 0;
   for (const float z : {0.75f, 2.25f})
     for (const float x : {0.95f, 2.45f}) {
       const Vec3 at(x, kHeight, z);
       rings.append(ring, move(at));
       MeshBuilder glow;
-      glow.append(disk, move(at + Vec3(0, -0.019f, 0)) * turn(180, {1, 0, 0}));
+      glow.append(disk, move(at + Vec3(0, kLow, 0)) * turn(180, {1, 0, 0}));
       stage.add_light("downlight " + std::to_string(++count), glow, "ceiling", kDownlightLumens, kNeutral);
     }
   stage.add("downlight rings", "joinery", rings);
@@ -74,13 +69,24 @@ void add_globes(Stage& stage) {
   stage.add("mirror lamp fittings", "brass", fitting);
 }
 
+/// A luminous strip that looks down, in the mouth of a flat profile under a ceiling.
+void add_strip(Stage& stage, MeshBuilder& profiles, const char* name, Vec3 lo, Vec3 hi, float lumens) {
+  MeshBuilder glow;
+  add_rectangle(glow, lo, {hi.x - lo.x, 0, 0}, {0, 0, hi.z - lo.z});
+  add_box(profiles, lo, hi, 0, kTop | kBottom);
+  stage.add_light(name, glow, "shower", lumens, kSoft);
+}
+
 void add_strips(Stage& stage) {
-  MeshBuilder slot, shelf;
-  add_rectangle(slot, {kAlcoveLeft + 0.02f, kAlcoveHeight + 0.062f, -kAlcoveDepth + 0.03f},
-                {kWidth - kAlcoveLeft - 0.04f, 0, 0}, {0, 0, 0.03f});
-  stage.add_light("shower strip", slot, "shower", kSlotLumens, kSoft);
-  add_rectangle(shelf, {kAlcoveLeft + 0.245f, 1.394f, -kAlcoveDepth - 0.022f}, {0.41f, 0, 0}, {0, 0, 0.014f});
-  stage.add_light("shower shelf strip", shelf, "shower", kShelfLumens, kSoft);
+  MeshBuilder profiles;
+  constexpr float kTall = 0.008f, kWide = 0.024f;
+  const float back = -kAlcoveDepth + 0.09f, shelf_top = 1.4f, shelf_front = -kAlcoveDepth - 0.01f;
+  add_strip(stage, profiles, "shower strip", {kAlcoveLeft + 0.06f, kAlcoveHeight - kTall, back},
+            {kWidth - 0.06f, kAlcoveHeight, back + kWide}, kStripLumens);
+  add_strip(stage, profiles, "shower shelf strip",
+            {kAlcoveLeft + 0.245f, shelf_top - kTall, shelf_front - 0.014f},
+            {kAlcoveLeft + 0.655f, shelf_top, shelf_front}, kShelfLumens);
+  stage.add("strip profiles", "joinery", profiles);
 }
 
 void add_daylight(Stage& stage) {

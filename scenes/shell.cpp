@@ -78,22 +78,12 @@ void add_plaster(Stage& stage) {
 }
 
 void add_ceilings(Stage& stage) {
-  MeshBuilder ceiling, slot;
+  MeshBuilder ceiling, shower;
   add_wall(ceiling, {0, kHeight, 0}, kX, kZ, {0, kWidth}, {0, kDepth}, kWhole);
   stage.add("ceiling", "ceiling paint", ceiling);
-  // The alcove's ceiling ends before the back wall: a slot hides the lamp that washes the tiles. Its walls go
-  // on where the tiles' edges end.
-  constexpr float kSlot = 0.09f, kSlotHeight = 0.07f, kBack = -kAlcoveDepth + kJoint;
-  constexpr float kWide = kWidth - kAlcoveLeft - 2 * kJoint;
-  add_rectangle(slot, {kAlcoveLeft, kAlcoveHeight, kBack + kSlot}, kX * (kWidth - kAlcoveLeft),
-                -kZ * (kBack + kSlot));
-  const Vec3 at(kAlcoveLeft + kJoint, kAlcoveHeight, kBack);
-  add_rectangle(slot, at + kY * kSlotHeight, kX * kWide, kZ * kSlot);
-  add_rectangle(slot, at, kX * kWide, kY * kSlotHeight);
-  add_rectangle(slot, at + kX * kWide + kZ * kSlot, -kX * kWide, kY * kSlotHeight);
-  add_rectangle(slot, at + kZ * kSlot, -kZ * kSlot, kY * kSlotHeight);
-  add_rectangle(slot, at + kX * kWide, kZ * kSlot, kY * kSlotHeight);
-  stage.add("shower ceiling", "ceiling paint", slot);
+  add_rectangle(shower, {kAlcoveLeft, kAlcoveHeight, -kAlcoveDepth}, kX * (kWidth - kAlcoveLeft),
+                kZ * kAlcoveDepth);
+  stage.add("shower ceiling", "ceiling paint", shower);
 }
 
 void add_floors(Stage& stage) {
