@@ -120,8 +120,8 @@ Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, c
   }
 
   progress.at("pack", 0, 1);
-  const Packing packing = kept.joint ? pack_beside_joint(blocks, params, atlas.report.warnings)
-                                     : pack(blocks, params, atlas.report.warnings);
+  const Packing packing = kept.joint ? pack_beside_joint(blocks, charts, params, atlas.report.warnings)
+                                     : pack(blocks, charts, params, atlas.report.warnings);
   progress.at("pack", 1, 1);
   atlas.width = packing.width;
   atlas.height = packing.height;

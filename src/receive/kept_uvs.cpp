@@ -181,8 +181,8 @@ KeptUvs find_kept_uvs(const World& world, const MeshGraph& graph, const std::vec
   return kept;
 }
 
-Packing pack_beside_joint(const std::vector<Block>& blocks, const AtlasParams& params,
-                          std::vector<std::string>& warnings) {
+Packing pack_beside_joint(const std::vector<Block>& blocks, const std::vector<Chart>& charts,
+                          const AtlasParams& params, std::vector<std::string>& warnings) {
   const float side = blocks[0].size.x;
   int page = params.page_size;
   if (page == 0) {
@@ -198,7 +198,7 @@ Packing pack_beside_joint(const std::vector<Block>& blocks, const AtlasParams& p
     AtlasParams others = params;
     others.page_size = page;
     others.density = static_cast<float>(page) / side;
-    result = pack(rest, others, warnings);
+    result = pack(rest, charts, others, warnings);
   }
   for (Placement& place : result.blocks) ++place.page;
   result.blocks.insert(result.blocks.begin(), {0, Vec2(0), static_cast<float>(page) / side});

@@ -21,7 +21,7 @@ struct KeptUvs {
 KeptUvs find_kept_uvs(const World& world, const MeshGraph& graph, const std::vector<float>& texels);
 
 /// Page 0 is the joint layout; the other blocks (twins) are packed on further pages of the same size.
-Packing pack_beside_joint(const std::vector<Block>& blocks, const AtlasParams& params,
-                          std::vector<std::string>& warnings);
+Packing pack_beside_joint(const std::vector<Block>& blocks, const std::vector<Chart>& charts,
+                          const AtlasParams& params, std::vector<std::string>& warnings);
 
 }  // namespace sconce

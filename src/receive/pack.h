@@ -29,9 +29,11 @@ struct Packing {
   std::vector<Placement> blocks;
 };
 
-/// Blocks at least `gutter` texels apart, half of that from the page's border. With params.density: as many
-/// pages as needed, of the size that wastes least; with page_size alone: the density that fills one page.
+/// Shapes are packed by what they cover, not by their boxes. Blocks are at least `gutter` texels apart, and
+/// half of that from the page's border. With params.density: as many pages as needed, of the size that wastes
+/// least; with page_size alone: the density that fills one page.
 /// @throws Error when page_size is too small for the number of charts
-Packing pack(const std::vector<Block>& blocks, const AtlasParams& params, std::vector<std::string>& warnings);
+Packing pack(const std::vector<Block>& blocks, const std::vector<Chart>& charts, const AtlasParams& params,
+             std::vector<std::string>& warnings);
 
 }  // namespace sconce

@@ -16,13 +16,13 @@ inline constexpr float kTouch = 1e-3f;
 /// Calls f(x, y) for every texel [x, x+1) x [y, y+1) of a page that the triangle (texel coordinates, either
 /// winding) covers any part of, row by row; at least one, also for a triangle without area.
 template <class F>
-void cover_texels(const std::array<Vec2, 3>& t, int width, int height, F&& f) {
+void cover_texels(const std::array<Vec2, 3>& t, int width, int height, F&& f, float touch = kTouch) {
   const Vec2 lo = glm::min(t[0], glm::min(t[1], t[2])), hi = glm::max(t[0], glm::max(t[1], t[2]));
   const auto clamp_to = [](float v, int size) {
     return std::clamp(static_cast<int>(std::floor(v)), 0, size - 1);
   };
-  const int x0 = clamp_to(lo.x + kTouch, width), x1 = std::max(x0, clamp_to(hi.x - kTouch, width));
-  const int y0 = clamp_to(lo.y + kTouch, height), y1 = std::max(y0, clamp_to(hi.y - kTouch, height));
+  const int x0 = clamp_to(lo.x + touch, width), x1 = std::max(x0, clamp_to(hi.x - touch, width));
+  const int y0 = clamp_to(lo.y + touch, height), y1 = std::max(y0, clamp_to(hi.y - touch, height));
   if (x0 == x1 || y0 == y1) {
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) f(x, y);
@@ -39,7 +39,7 @@ void cover_texels(const std::array<Vec2, 3>& t, int width, int height, F&& f) {
     normal[k] = length > 0 ? winding * Vec2(-edge.y, edge.x) / length : Vec2(0);  // inwards
     // The box's corner farthest inside must lie inside by more than rounding.
     const Vec2 reach(normal[k].x > 0 ? 1.0f : 0.0f, normal[k].y > 0 ? 1.0f : 0.0f);
-    limit[k] = glm::dot(normal[k], t[k] - reach) + (length > 0 ? kTouch : -1.0f);
+    limit[k] = glm::dot(normal[k], t[k] - reach) + (length > 0 ? touch : -1.0f);
   }
   bool any = false;
   for (int y = y0; y <= y1; ++y) {
