@@ -89,8 +89,9 @@ InfoReport package_info(const std::filesystem::path& path, bool options) {
       {"cameras", cameras}};
   report.text = fmt::format("package       {}, format {}, by {}\n", path.string(), m.version, m.generator);
   report.text += fmt::format("scene         {}\n", m.scene_name);
-  report.text += fmt::format("atlas         {} x {}, {} {}, {:.1f} texels per metre\n", m.width, m.height,
-                             m.pages, m.pages == 1 ? "page" : "pages", m.density);
+  report.text += fmt::format("atlas         {} x {}, {} {}", m.width, m.height, m.pages,
+                             m.pages == 1 ? "page" : "pages");
+  report.text += m.density > 0 ? fmt::format(", {:.4g} texels per metre\n", m.density) : "\n";
   report.text += fmt::format("cameras       {}\n", cameras.empty() ? "none" : some_names(cameras, 8));
   add_groups(m, report);
   add_layers(m, report);
