@@ -113,6 +113,11 @@ std::optional<Bytes> read_buffer(const json& buffer, std::size_t index, const Gl
         return std::nullopt;
       }
       const std::string content = read_file(file);
+      if (is_lfs_pointer(content)) {
+        progress.warn(path.string() + ": buffer file " + file.string() +
+                      " is missing (only its Git LFS pointer is there); what lies in it is left out");
+        return std::nullopt;
+      }
       bytes.assign(content.begin(), content.end());
     }
   }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/picture.h"
 
+#include "core/error.h"
 #include "image/io.h"
+#include "import/uri.h"
 
 namespace sconce {
 
 Image8 decode_texture(std::span<const unsigned char> file, const std::string& where) {
+  if (is_lfs_pointer({reinterpret_cast<const char*>(file.data()), file.size()}))
+    throw Error(where, "only its Git LFS pointer is there");
   Image8 stored = decode_image8(file, where);
   if (stored.channels >= 3) return stored;
   Image8 out{stored.width, stored.height, stored.channels + 2, {}};

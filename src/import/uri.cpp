@@ -84,6 +84,10 @@ std::string percent_decoded(std::string_view text) {
   return out;
 }
 
+bool is_lfs_pointer(std::string_view bytes) {
+  return bytes.starts_with("version https://git-lfs");
+}
+
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string_view::npos || colon < 2) return false;  // one letter is a drive, not a scheme

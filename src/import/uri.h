@@ -25,4 +25,7 @@ std::string percent_decoded(std::string_view text);
 /// Has the URI a scheme ("https:")? Then it is no file beside the scene.
 bool has_scheme(std::string_view uri);
 
+/// Is this the text that Git LFS leaves in place of a file that was not fetched?
+bool is_lfs_pointer(std::string_view bytes);
+
 }  // namespace sconce
