@@ -100,7 +100,7 @@ class Writer {
     root_["samplers"].push_back(
         {{"magFilter", filter}, {"wrapS", wrap(texture.wrap_u)}, {"wrapT", wrap(texture.wrap_v)}});
     Json entry = {{"name", texture.name}, {"sampler", root_["samplers"].size() - 1}};
-    if (!texture.file.empty() || !texture.pixels.data.empty()) {
+    if (!texture.pixels.data.empty()) {
       const bool encoded = !texture.file.empty();
       const std::vector<unsigned char> file = encoded ? texture.file : encode_png(texture.pixels);
       root_["images"].push_back({{"name", texture.name},
