@@ -17,10 +17,9 @@ Scene make_bathroom() {
   add_plants(stage);
   add_lamps(stage);
   stage.camera("main", {2.25f, 1.47f, 3.32f}, {1.46f, 1.10f, 0.5f}, 82);
-  stage.camera("mirror", {2.25f, 1.50f, 1.55f}, {1.42f, 1.22f, 0.1f}, 62);
-  stage.camera("shower", {1.75f, 1.45f, 2.1f}, {2.85f, 1.18f, -0.6f}, 58);
+  stage.camera("mirror", {2.28f, 1.50f, 1.60f}, {1.50f, 1.22f, 0.1f}, 62);
+  stage.camera("shower", {2.45f, 1.48f, 1.75f}, {2.86f, 1.18f, -0.6f}, 62);
   stage.camera("tub", {2.2f, 1.5f, 2.5f}, {0.5f, 0.75f, 0.9f}, 64);
-  stage.camera("door", {0.5f, 1.5f, 0.3f}, {2.3f, 1.1f, 3.1f}, 80);
   return stage.scene;
 }
 

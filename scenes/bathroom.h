@@ -13,7 +13,7 @@ inline constexpr float kDado = 1.0f;       ///< top of the tiles on the walls of
 inline constexpr float kDadoRight = 2.1f;  ///< their end on the vanity's wall
 inline constexpr float kTile = 0.008f;     ///< how far a tile stands out from the wall
 inline constexpr float kJoint = 0.0025f;   ///< and its edges
-inline constexpr Vec3 kWindowLo{-0.22f, 1.05f, 0.5f}, kWindowHi{0, 2.15f, 1.65f};
+inline constexpr Vec3 kWindowLo{-0.14f, 1.05f, 0.5f}, kWindowHi{0, 2.15f, 1.65f};
 inline constexpr float kDoorLeft = 1.8f, kDoorRight = 2.75f, kDoorHeight = 2.1f, kDoorReveal = 0.22f;
 
 void add_materials(Stage& stage);

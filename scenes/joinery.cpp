@@ -7,7 +7,7 @@ namespace {
 
 void add_window(Stage& stage) {
   const Vec3 lo = kWindowLo, hi = kWindowHi;
-  constexpr float kBar = 0.05f, kOut = -0.17f, kIn = -0.12f, kEdge = 0.004f;
+  constexpr float kBar = 0.05f, kOut = -0.115f, kIn = -0.07f, kEdge = 0.004f;
   // Bars that cross have different depths, so that no two faces lie in one plane.
   MeshBuilder frame;
   const auto bar = [&](float y0, float y1, float z0, float z1, float thinner, unsigned open) {
@@ -31,7 +31,7 @@ void add_window(Stage& stage) {
   stage.add("window handle", "brass", handle);
 
   MeshBuilder sill;
-  add_box(sill, {kIn - 0.02f, lo.y - 0.003f, lo.z}, {0.035f, lo.y + 0.025f, hi.z}, 0.005f, kLeft);
+  add_box(sill, {kIn - 0.02f, lo.y - 0.003f, lo.z}, {0.05f, lo.y + 0.025f, hi.z}, 0.005f, kLeft);
   stage.add("window sill", "stone", sill);
 }
 

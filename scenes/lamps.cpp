@@ -9,7 +9,7 @@ namespace {
 
 // Kelvin.
 constexpr double kNeutral = 4000, kWarm = 3000, kSoft = 3500, kDaylight = 7500;
-constexpr float kDownlightLumens = 500, kGlobeLumens = 600, kStripLumens = 420, kShelfLumens = 180,
+constexpr float kDownlightLumens = 500, kGlobeLumens = 600, kStripLumens = 540, kShelfLumens = 60,
                 kDaylightLumens = 4000;
 
 void add_downlights(Stage& stage) {
@@ -31,40 +31,45 @@ void add_downlights(Stage& stage) {
 }
 
 void add_globes(Stage& stage) {
-  constexpr float kRadius = 0.06f, kOut = 0.105f, kY = 1.56f;
+  constexpr float kRadius = 0.075f, kOut = 0.155f, kY = 1.56f;
   constexpr int kRings = 14;
-  MeshBuilder globe, fitting, holder;
+  MeshBuilder globe, fitting;
   std::vector<Vec2> profile;
   for (int k = 0; k <= kRings; ++k) {
     const float a = kPi * (static_cast<float>(k) / kRings - 0.5f);
     profile.emplace_back(kRadius * std::cos(a), kRadius * std::sin(a));
   }
   add_lathe(globe, profile, 28, 60);
-  const float low = -kRadius;
-  add_lathe(holder,
-            {{0, low - 0.022f},
-             {0.012f, low - 0.022f},
-             {0.026f, low - 0.008f},
-             {0.034f, low + 0.012f},
-             {0.031f, low + 0.013f}},
-            20, 40);
+  // A wide brass plate keeps the wall behind the glass from being the brightest spot of the room.
   MeshBuilder plate;
-  add_lathe(plate, {{0.036f, 0}, {0.036f, 0.006f}, {0.031f, 0.012f}, {0, 0.013f}}, 24, 35);
-  const float side_x[2] = {1.03f, 1.95f};
+  add_lathe(plate,
+            smooth_curve<Vec2>({{0.085f, 0},
+                                {0.0855f, 0.006f},
+                                {0.082f, 0.011f},
+                                {0.074f, 0.012f},
+                                {0.055f, 0.008f},
+                                {0.03f, 0.006f},
+                                {0, 0.0055f}},
+                               2),
+            36, 50);
+  const float side_x[2] = {1.12f, 2.00f};
   for (int side = 0; side < 2; ++side) {
-    const Vec3 at(side_x[side], kY, kOut), wall(at.x, kY - 0.13f, 0);
+    const Vec3 at(side_x[side], kY, kOut), wall(at.x, kY, 0);
     MeshBuilder glow;
     glow.append(globe, move(at));
     stage.add_light("mirror globe " + std::to_string(side + 1), glow, "mirror", kGlobeLumens, kWarm);
-    fitting.append(holder, move(at));
     fitting.append(plate, move(wall) * turn(90, {1, 0, 0}));
+    // Only a slender collar meets the glass: a cup would glow, and be sampled by few paths.
+    const float foot = kY - kRadius;
     add_tube(fitting,
-             smooth_curve<Vec3>({wall,
-                                 wall + Vec3(0, 0, 0.06f),
-                                 {at.x, wall.y + 0.012f, kOut - 0.012f},
-                                 {at.x, kY + low - 0.02f, kOut}},
+             smooth_curve<Vec3>({wall + Vec3(0, -0.055f, 0.004f),
+                                 wall + Vec3(0, -0.085f, 0.05f),
+                                 {at.x, foot - 0.050f, kOut - 0.045f},
+                                 {at.x, foot - 0.040f, kOut - 0.010f},
+                                 {at.x, foot - 0.015f, kOut}},
                                 5),
              0.007f, 12, false, false);
+    add_tube(fitting, {{at.x, foot - 0.026f, kOut}, {at.x, foot + 0.001f, kOut}}, 0.013f, 14, true, false);
   }
   stage.add("mirror lamp fittings", "brass", fitting);
 }
@@ -93,7 +98,7 @@ void add_daylight(Stage& stage) {
   MeshBuilder portal;
   const Vec3 size = kWindowHi - kWindowLo;
   add_rectangle(portal, {kWindowLo.x, kWindowLo.y, kWindowHi.z}, {0, 0, -size.z}, {0, size.y, 0});
-  stage.add_light("daylight", portal, "window", kDaylightLumens, kDaylight);
+  stage.add_light("daylight", portal, "window", kDaylightLumens, kDaylight, 0.04f);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ void add_rubber_plant(Stage& stage) {
 }
 
 void add_sword_plant(Stage& stage) {
-  const Vec3 foot(-0.045f, kWindowLo.y + 0.025f, 0.70f);
+  const Vec3 foot(-0.006f, kWindowLo.y + 0.025f, 0.70f);
   MeshBuilder shape, pot, blades;
   add_lathe(shape,
             {{0.045f, 0},

@@ -73,13 +73,13 @@ void add_shelf_goods(Stage& stage) {
 void add_vanity_goods(Stage& stage) {
   constexpr float kTop = 0.83f;
   MeshBuilder tray;
-  add_box(tray, {1.80f, kTop, 0.10f}, {2.00f, kTop + 0.012f, 0.24f}, 0.004f, kBottom);
+  add_box(tray, {1.83f, kTop, 0.10f}, {2.03f, kTop + 0.012f, 0.24f}, 0.004f, kBottom);
   stage.add("tray", "oak", tray);
-  add_vessel(stage, "soap bottle", "amber glass", pump_bottle(0.033f, 0.14f), {1.85f, kTop + 0.012f, 0.165f});
-  add_vessel(stage, "soap pump", "brass", pump(0.14f), {1.85f, kTop + 0.012f, 0.165f}, -120);
-  add_vessel(stage, "lotion", "ceramic", jar(0.034f, 0.055f), {1.945f, kTop + 0.012f, 0.17f});
+  add_vessel(stage, "soap bottle", "amber glass", pump_bottle(0.033f, 0.14f), {1.88f, kTop + 0.012f, 0.165f});
+  add_vessel(stage, "soap pump", "brass", pump(0.14f), {1.88f, kTop + 0.012f, 0.165f}, -120);
+  add_vessel(stage, "lotion", "ceramic", jar(0.034f, 0.055f), {1.975f, kTop + 0.012f, 0.17f});
 
-  const Vec3 brushes(1.09f, kTop, 0.15f);
+  const Vec3 brushes(1.18f, kTop, 0.15f);
   add_vessel(stage, "tooth mug", "clay", cup(0.037f, 0.095f), brushes);
   const auto brush = [&](const char* name, const char* material, Vec3 lean) {
     MeshBuilder stick;
@@ -97,9 +97,9 @@ void add_vanity_goods(Stage& stage) {
       dish,
       {{0.045f, 0}, {0.056f, 0.010f}, {0.058f, 0.014f}, {0.054f, 0.014f}, {0.042f, 0.007f}, {0, 0.006f}}, 28,
       40);
-  add_vessel(stage, "soap dish", "ceramic", dish, {1.13f, kTop, 0.33f});
+  add_vessel(stage, "soap dish", "ceramic", dish, {1.21f, kTop, 0.33f});
   add_box(soap, {-0.034f, 0.006f, -0.022f}, {0.034f, 0.028f, 0.022f}, 0.007f);
-  add_vessel(stage, "soap", "soap", soap, {1.13f, kTop, 0.33f}, 24);
+  add_vessel(stage, "soap", "soap", soap, {1.21f, kTop, 0.33f}, 24);
 }
 
 void add_stool(Stage& stage) {

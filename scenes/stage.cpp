@@ -73,7 +73,7 @@ void Stage::add(const std::string& name, const std::string& material, const Mesh
 }
 
 void Stage::add_light(const std::string& name, const MeshBuilder& shape, const char* group, float lumens,
-                      double kelvin) {
+                      double kelvin, float albedo) {
   const Mesh measured = shape.finish(name, {}, Vec2(0));
   // Lambertian emitter: flux = pi * area * luminance.
   const float luminance = lumens / (kPi * area(measured));
@@ -86,7 +86,7 @@ void Stage::add_light(const std::string& name, const MeshBuilder& shape, const c
       known == materials_.end() || scene[known->second].emission != emission) {
     Material m;
     m.name = material;
-    m.base_color = Rgb(0.75f);
+    m.base_color = Rgb(albedo);
     m.emission = emission;
     scene.materials.push_back(m);
     materials_[material] = last(scene.materials);

@@ -20,9 +20,10 @@ class Stage {
   void add(const std::string& name, const std::string& material, const MeshBuilder& shape,
            float lightmap_scale = 1);
   /// A one-sided emitter whose luminance is chosen so that it sends out `lumens`.
+  /// @param albedo  of the lamp itself, seen when it is off
   /// @param kelvin  its colour: that of a black body against a white of 6504 K
   void add_light(const std::string& name, const MeshBuilder& shape, const char* group, float lumens,
-                 double kelvin);
+                 double kelvin, float albedo = 0.75f);
   void camera(const std::string& name, Vec3 eye, Vec3 target, float horizontal_degrees);
 
   Scene scene;

@@ -51,8 +51,10 @@ void add_body(Stage& stage) {
 
 /// Floor-standing tap at the corner of the tub that is next to the vanity.
 void add_tap(Stage& stage) {
-  const Vec3 foot(1.0f, 0, 0.42f);
-  const auto up = [&](float x, float y) { return foot + Vec3(x, y, 0.06f * -x); };
+  const Vec3 foot(0.985f, 0, 0.36f);
+  // Away from the tub (x > 0) and across.
+  const Vec3 away(0.7f, 0, -0.714f), across(0.714f, 0, 0.7f);
+  const auto up = [&](float x, float y) { return foot + x * away + Vec3(0, y, 0); };
   MeshBuilder tap, base;
   add_lathe(base, {{0.045f, 0}, {0.045f, 0.008f}, {0.040f, 0.013f}, {0.015f, 0.014f}}, 24, 35);
   tap.append(base, move(foot));
@@ -64,9 +66,9 @@ void add_tap(Stage& stage) {
   add_tube(tap, {up(0.032f, 0.70f), up(-0.036f, 0.70f)}, 0.026f, 16);
   add_tube(tap, {up(0.03f, 0.70f), up(0.058f, 0.70f)}, 0.016f, 14, false);
   add_tube(tap, {up(0.052f, 0.70f), up(0.052f, 0.78f)}, 0.006f, 10);
-  add_tube(tap, {up(0, 0.70f) + Vec3(0, 0, 0.02f), up(0, 0.70f) + Vec3(0, 0, 0.055f)}, 0.010f, 10, false);
+  add_tube(tap, {up(0, 0.70f) + 0.02f * across, up(0, 0.70f) + 0.055f * across}, 0.010f, 10, false);
   // Hand shower in its cradle, hose hanging in a loop.
-  const Vec3 cradle = up(0, 0.70f) + Vec3(0, 0, 0.055f);
+  const Vec3 cradle = up(0, 0.70f) + 0.055f * across;
   add_tube(tap,
            {cradle + Vec3(0, -0.07f, -0.005f), cradle + Vec3(0, 0.02f, 0.002f),
             cradle + Vec3(-0.005f, 0.15f, 0.015f)},

@@ -7,7 +7,7 @@
 namespace sconce::demo {
 namespace {
 
-constexpr float kLeftSide = 0.94f, kRightSide = 2.04f, kUnder = 0.42f, kTopY = 0.80f, kFrontZ = 0.47f;
+constexpr float kLeftSide = 1.06f, kRightSide = 2.06f, kUnder = 0.42f, kTopY = 0.80f, kFrontZ = 0.47f;
 constexpr float kMiddle = 0.5f * (kLeftSide + kRightSide), kSlab = 0.03f;
 
 void add_cabinet(Stage& stage) {
@@ -22,7 +22,7 @@ void add_cabinet(Stage& stage) {
   // Two drawers with half-round reeds.
   MeshBuilder reeds, shadow;
   const float left = kLeftSide + kBoard, right = kRightSide - kBoard;
-  constexpr int kReeds = 44, kFacets = 6;
+  constexpr int kReeds = 40, kFacets = 6;
   const auto drawer = [&](float y0, float y1) {
     reeds.part(40);
     const float pitch = (right - left) / kReeds;
