@@ -108,6 +108,8 @@ Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, c
     blocks.push_back({{static_cast<uint32_t>(charts.size())}, charts[c].size, 1.0f});
     charts.push_back(make_twin(charts[c]));
   }
+  for (const Chart& chart : charts)
+    atlas.seen_charts.push_back(is_reached(seen, chart.triangles, chart.back) ? 1 : 0);
   for (Block& block : blocks) {
     float scale = 0;
     for (const uint32_t c : block.charts) {
@@ -126,6 +128,7 @@ Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, c
   atlas.width = packing.width;
   atlas.height = packing.height;
   atlas.pages = packing.pages;
+  atlas.density = packing.density;
   atlas.front.resize(world.size());
   atlas.back.resize(world.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {

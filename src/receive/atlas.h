@@ -47,6 +47,7 @@ struct Atlas {
   std::vector<TexelTriangle> front, back;  ///< per World triangle
   std::vector<uint8_t>
       reached_back;  ///< per World triangle: 1 where probe rays reach its back, so that it is legal to see
+  std::vector<uint8_t> seen_charts;  ///< per chart: 1 where any probe ray reaches it
   AtlasReport report;
 };
 
@@ -61,8 +62,10 @@ class TexelReceivers {
   static constexpr std::size_t kTile =
       256;  ///< receivers per tile: the unit of work, of checkpoints and of shards
 
-  /// Rasterises conservatively: a texel is a receiver where a triangle covers any of it. Those whose
-  /// sub-points mostly see back faces (buried) are left out and counted invalid.
+  /// Rasterises conservatively: a texel is a receiver where a triangle covers any of it. Parts of a texel
+  /// whose points mostly see backs that no probe ray reached, or meet something right in front of them, are
+  /// buried and do not count; texels without any other part are left out and counted invalid.
+  /// @pre atlas comes from make_atlas() with the same world
   TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas, const Progress& progress = {});
 
   std::size_t size() const { return texels_.size(); }

@@ -26,15 +26,13 @@ class BurialTest {
   /// Whether a few rays from the texel meet nothing suspicious at all.
   bool clearly_free(uint32_t texel, std::span<const uint32_t> sides) const;
 
-  struct Verdict {
-    uint16_t free = 0;     ///< cells that are not buried (cells without surface count as free)
-    float free_share = 0;  ///< of the texel's area
-  };
-  Verdict judge(uint32_t texel, std::span<const uint32_t> sides) const;
+  /// The cells that hold surface and are not buried; kAllCells where none is buried.
+  uint16_t free_cells(uint32_t texel, std::span<const uint32_t> sides) const;
 
  private:
   /// 0 = a ray into the open, 1 = a ray that tells of burial.
   float suspicion(const SurfacePoint& point, Vec2 u, float near) const;
+  bool buried(const Footprint& part, float near, uint32_t stream, uint32_t rays) const;
   float texel_length(uint32_t side) const;
 
   const World& world_;

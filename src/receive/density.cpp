@@ -253,6 +253,10 @@ float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch&
                     1.0f);
 }
 
+bool is_reached(const Visibility& seen, const Patch& patch, bool back) {
+  return std::ranges::any_of(patch, [&](uint32_t t) { return seen.weight(2 * t + (back ? 1 : 0)) > 0; });
+}
+
 bool back_is_reached(const Visibility& seen, const MeshGraph& graph, const Patch& patch) {
   double sum = 0, area = 0;
   for (const uint32_t t : patch) {

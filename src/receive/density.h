@@ -35,6 +35,9 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
 float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch& patch, bool back,
                     float least);
 
+/// Whether any probe ray reached the patch's side.
+bool is_reached(const Visibility& seen, const Patch& patch, bool back);
+
 /// Whether a patch's back is reached, other than by stray rays through cracks.
 bool back_is_reached(const Visibility& seen, const MeshGraph& graph, const Patch& patch);
 

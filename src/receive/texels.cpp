@@ -107,27 +107,23 @@ TexelReceivers::TexelReceivers(const World& world, const Tracer& tracer, Atlas& 
   const BurialTest test(world, tracer, atlas);
   const std::vector<uint8_t> suspect = suspects(atlas, coverage, test, progress);
   std::vector<uint16_t> cells(n, kAllCells);
-  std::vector<uint8_t> valid(n, 1);
   parallel_for(n, 512, [&](std::size_t i) {
-    if (suspect[i] == 0) return;
-    const BurialTest::Verdict verdict = test.judge(coverage.texels[i], coverage.of(i));
-    cells[i] = verdict.free;
-    valid[i] = verdict.free_share >= 0.5f ? 1 : verdict.free_share > 0 ? 2 : 0;
+    if (suspect[i] != 0) cells[i] = test.free_cells(coverage.texels[i], coverage.of(i));
   });
 
-  // A chart that would lose all its texels keeps those with any free part: a little of it can be seen.
-  std::vector<uint8_t> alive;
+  // A chart that probe rays reach, yet whose every point seems buried, lies in a crack: dark, but there to be
+  // seen.
+  std::vector<uint8_t> alive(atlas.seen_charts.size(), 0);
   const auto chart_of = [&](std::size_t i) {
     return side_of(atlas, coverage.sides[coverage.first[i]]).chart;
   };
-  for (std::size_t i = 0; i < n; ++i) {
-    const uint32_t chart = chart_of(i);
-    if (chart >= alive.size()) alive.resize(chart + 1, 0);
-    if (valid[i] == 1) alive[chart] = 1;
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (cells[i] != 0) alive[chart_of(i)] = 1;
   first_.push_back(0);
   for (std::size_t i = 0; i < n; ++i) {
-    if (valid[i] == 0 || (valid[i] == 2 && alive[chart_of(i)] != 0)) continue;
+    const uint32_t chart = chart_of(i);
+    if (cells[i] == 0 && alive[chart] == 0 && atlas.seen_charts[chart] != 0) cells[i] = kAllCells;
+    if (cells[i] == 0) continue;
     texels_.push_back(coverage.texels[i]);
     cells_.push_back(cells[i]);
     for (const uint32_t side : coverage.of(i)) sides_.push_back(side);
