@@ -203,6 +203,7 @@ Packing pack_beside_joint(const std::vector<Block>& blocks, const std::vector<Ch
   for (Placement& place : result.blocks) ++place.page;
   result.blocks.insert(result.blocks.begin(), {0, Vec2(0), static_cast<float>(page) / side});
   result.width = result.height = page;
+  result.density = static_cast<float>(page) / side;
   ++result.pages;
   return result;
 }

@@ -45,6 +45,7 @@ TEST(KeptUvs, AJointLayoutIsKeptAsItStands) {
   params.density = 100;
   s.unwrap(params);
   EXPECT_EQ(s.atlas.width, 256);  // 1 m is 0.4 of a page
+  EXPECT_NEAR(s.atlas.density, 0.4f * 256, 1e-2f);
   params.keep_uvs = false;
   s.unwrap(params);
   EXPECT_FALSE(s.atlas.report.kept_uvs);
