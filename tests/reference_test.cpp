@@ -33,8 +33,8 @@ void check(const std::string& scene, float density, int samples, double most_rms
   }
 }
 
-TEST(Reference, CornellBox) { check("cornell-box", 24, 256, 0.05); }
-TEST(Reference, CornellTwoLights) { check("cornell-two-lights", 24, 256, 0.06); }
+TEST(Reference, CornellBox) { check("cornell-box", 40, 256, 0.05); }
+TEST(Reference, CornellTwoLights) { check("cornell-two-lights", 40, 256, 0.05); }
 
 }  // namespace
 }  // namespace sconce

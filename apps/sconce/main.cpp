@@ -39,7 +39,8 @@ int complain(std::string_view verb, const std::string& what, int code) {
   for (char& c : line) {
     if (c == '\n' || c == '\r') c = ' ';
   }
-  fmt::print(stderr, "sconce{}{}: {}\n", verb.empty() ? "" : " ", verb, line);
+  // fputs: where even stderr is lost, fmt would throw out of the handler.
+  std::fputs(fmt::format("sconce{}{}: {}\n", verb.empty() ? "" : " ", verb, line).c_str(), stderr);
   return code;
 }
 
