@@ -85,7 +85,7 @@ void add_strip(Stage& stage, MeshBuilder& profiles, const char* name, Vec3 lo, V
 void add_strips(Stage& stage) {
   MeshBuilder profiles;
   constexpr float kTall = 0.008f, kWide = 0.024f;
-  const float back = -kAlcoveDepth + 0.09f, shelf_top = 1.4f, shelf_front = -kAlcoveDepth - 0.01f;
+  const float back = -kAlcoveDepth + 0.28f, shelf_top = 1.4f, shelf_front = -kAlcoveDepth - 0.01f;
   add_strip(stage, profiles, "shower strip", {kAlcoveLeft + 0.06f, kAlcoveHeight - kTall, back},
             {kWidth - 0.06f, kAlcoveHeight, back + kWide}, kStripLumens);
   add_strip(stage, profiles, "shower shelf strip",
