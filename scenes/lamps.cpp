@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four groups: downlights, globes beside the mirror, hidden strips in the shower, daylight.
+// Four groups: downlights, globes beside the mirror, strips in the shower, daylight.
 #include <string>
 
 #include "bathroom.h"
@@ -19,7 +19,7 @@ void add_downlights(Stage& stage) {
   add_lathe(ring, {{kGlow, kLow}, {0.078f, kLow}, {0.082f, kLow + 0.004f}, {0.082f, 0.0f}}, 32, 40);
   add_disk(disk, kGlow, 32);
   int count = 0;
-  for (const float z : {0.75f, 2.25f})
+  for (const float z : {0.45f, 2.15f})
     for (const float x : {0.95f, 2.45f}) {
       const Vec3 at(x, kHeight, z);
       rings.append(ring, move(at));

@@ -23,23 +23,34 @@ void add_cabinet(Stage& stage) {
   MeshBuilder reeds, shadow;
   const float left = kLeftSide + kBoard, right = kRightSide - kBoard;
   constexpr int kReeds = 40, kFacets = 6;
-  const auto drawer = [&](float y0, float y1) {
+  constexpr float kValley = kFrontZ - 0.014f;
+  const auto drawer = [&](float y0, float y1, float end) {
     reeds.part(40);
     const float pitch = (right - left) / kReeds;
     for (int i = 0; i < kReeds; ++i)
       for (int k = 0; k < kFacets; ++k) {
         const auto at = [&](int step, float y) {
           const float t = static_cast<float>(step) / kFacets, x = left + (static_cast<float>(i) + t) * pitch;
-          return Corner{{x, y, kFrontZ - 0.014f + kReed * std::sin(kPi * t)}, {x, y}};
+          return Corner{{x, y, kValley + kReed * std::sin(kPi * t)}, {x, y}};
         };
         reeds.quad(at(k, y0), at(k + 1, y0), at(k + 1, y1), at(k, y1));
+        const auto behind = [&](int step) {
+          Corner c = at(step, end);
+          c.p.z = kValley;
+          return c;
+        };
+        if (end == y1)
+          reeds.quad(at(k, end), at(k + 1, end), behind(k + 1), behind(k));
+        else
+          reeds.quad(behind(k), behind(k + 1), at(k + 1, end), at(k, end));
       }
   };
   const float bottom = kUnder + kBoard, seam = bottom + 0.5f * (kTopY - bottom);
-  drawer(bottom, seam - 0.002f);
-  drawer(seam + 0.002f, kTopY);
+  constexpr float kGap = 0.002f;
+  drawer(bottom, seam - kGap, seam - kGap);
+  drawer(seam + kGap, kTopY, seam + kGap);
   stage.add("drawers", "oak", reeds, 2);
-  add_rectangle(shadow, {left, seam - 0.003f, kFrontZ - 0.0145f}, {right - left, 0, 0}, {0, 0.006f, 0});
+  add_rectangle(shadow, {left, seam - kGap, kValley}, {right - left, 0, 0}, {0, 2 * kGap, 0});
   stage.add("drawer seam", "black steel", shadow);
 
   MeshBuilder knobs, knob;
