@@ -29,7 +29,6 @@ constexpr uint32_t owen_reversed(uint32_t x, uint32_t seed) {
   x ^= x * 0x53a22864u;
   return x;
 }
-constexpr uint32_t owen(uint32_t x, uint32_t seed) { return reverse_bits(owen_reversed(reverse_bits(x), seed)); }
 
 /// Second Sobol dimension, bit-reversed (so that it can be scrambled at once).
 constexpr uint32_t sobol1_reversed(uint32_t i) {
@@ -47,13 +46,18 @@ constexpr uint32_t sobol1_reversed(uint32_t i) {
 constexpr float to_unit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 }  // namespace detail
 
-/// Pair `pair` of point `index` of the sequence that (seed, receiver) name. Pure; any order of calls.
-inline Vec2 sobol_pair(uint32_t index, uint32_t pair, uint32_t stream) {
+/// As sobol_pair, for a caller that asks for many pairs of one point: `reversed` = detail::reverse_bits(index).
+[[gnu::always_inline]] inline Vec2 sobol_pair_reversed(uint32_t reversed, uint32_t pair, uint32_t stream) {
   const uint32_t key = mix32(stream ^ (pair * 0x9e3779b9u));
-  const uint32_t shuffled = detail::owen(index, key);
+  const uint32_t shuffled = detail::reverse_bits(detail::owen_reversed(reversed, key));
   const uint32_t x = detail::owen_reversed(shuffled, mix32(key + 1));
   const uint32_t y = detail::owen_reversed(detail::sobol1_reversed(shuffled), mix32(key + 2));
   return {detail::to_unit(detail::reverse_bits(x)), detail::to_unit(detail::reverse_bits(y))};
+}
+
+/// Pair `pair` of point `index` of the sequence that (seed, receiver) name. Pure; any order of calls.
+inline Vec2 sobol_pair(uint32_t index, uint32_t pair, uint32_t stream) {
+  return sobol_pair_reversed(detail::reverse_bits(index), pair, stream);
 }
 
 /// The pairs of one sample, taken in order.

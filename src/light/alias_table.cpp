@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/alias_table.h"
 
-#include <algorithm>
-
 namespace sconce {
 
 AliasTable::AliasTable(std::span<const double> weights) : cells_(weights.size()), probabilities_(weights.size()) {
@@ -30,19 +28,6 @@ AliasTable::AliasTable(std::span<const double> weights) : cells_(weights.size())
   // What is left differs from 1 by rounding only; a zero weight must never be picked.
   for (const uint32_t i : large) cells_[i] = {1.0f, i};
   for (const uint32_t i : small) cells_[i] = {1.0f, i};
-}
-
-std::size_t AliasTable::sample(float& u) const {
-  const float scaled = u * static_cast<float>(cells_.size());
-  const std::size_t i = std::min(static_cast<std::size_t>(scaled), cells_.size() - 1);
-  const float rest = std::min(scaled - static_cast<float>(i), 0x1.fffffep-1f);
-  const Cell& cell = cells_[i];
-  if (rest < cell.keep) {
-    u = std::min(rest / cell.keep, 0x1.fffffep-1f);
-    return i;
-  }
-  u = std::min((rest - cell.keep) / (1.0f - cell.keep), 0x1.fffffep-1f);
-  return cell.alias;
 }
 
 }  // namespace sconce

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,7 +19,18 @@ class AliasTable {
   double probability(std::size_t i) const { return probabilities_[i]; }
 
   /// @param u  in [0,1); rescaled so that it is uniform again given the index
-  std::size_t sample(float& u) const;
+  std::size_t sample(float& u) const {
+    const float scaled = u * static_cast<float>(cells_.size());
+    const std::size_t i = std::min(static_cast<std::size_t>(scaled), cells_.size() - 1);
+    const float rest = std::min(scaled - static_cast<float>(i), 0x1.fffffep-1f);
+    const Cell& cell = cells_[i];
+    if (rest < cell.keep) {
+      u = std::min(rest / cell.keep, 0x1.fffffep-1f);
+      return i;
+    }
+    u = std::min((rest - cell.keep) / (1.0f - cell.keep), 0x1.fffffep-1f);
+    return cell.alias;
+  }
 
  private:
   struct Cell {

@@ -3,8 +3,8 @@
 // variant (the compiler then lists what is missing).
 #pragma once
 
-#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -64,6 +64,32 @@ struct MeshLamp {
   double area = 0;       ///< m2, one side
   bool two_sided = false;
   bool uniform = false;  ///< no emission texture, no alpha mask
+
+  /// A point by the table; its radiance is the material's emission. Inline: this is the bake's most frequent call.
+  /// @param where  when given: piece and barycentric coordinates within it of the point
+  bool sample(const Vec3& x, Vec2 u, LightSample& out, std::pair<const Piece*, Vec2>* where = nullptr) const {
+    const Piece& piece = pieces[table.sample(u.x)];
+    float b1 = u.x, b2 = u.y;
+    if (b2 > b1) {
+      b1 *= 0.5f;
+      b2 -= b1;
+    } else {
+      b2 *= 0.5f;
+      b1 -= b2;
+    }
+    const Vec3 to = piece.p0 + b1 * piece.e1 + b2 * piece.e2 - x;
+    const float d2 = glm::dot(to, to), facing = two_sided ? std::abs(glm::dot(to, piece.normal)) : -glm::dot(to, piece.normal);
+    if (!(d2 > 1e-14f) || !(facing > 0)) return false;
+    const float d = std::sqrt(d2), cosine = facing / d;
+    if (!(cosine > 1e-7f)) return false;
+    out.direction = to / d;
+    out.distance = d;
+    out.radiance = piece.emission;
+    out.pdf = piece.density * d2 / cosine;
+    out.delta = false;
+    if (where != nullptr) *where = {&piece, Vec2(b1, b2)};
+    return true;
+  }
 };
 
 using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp>;
@@ -96,8 +122,12 @@ class Lamps {
   const std::vector<Lamp>& all() const { return lamps_; }
   std::size_t size() const { return lamps_.size(); }
 
-  /// Light from lamp i at x for u in [0,1)^2, or nothing (behind, outside the cone). The value is before visibility.
-  std::optional<LightSample> sample(std::size_t i, const Vec3& x, Vec2 u) const;
+  /// Light from lamp i at x for u in [0,1)^2, before visibility; nothing from behind a lamp or outside its cone.
+  /// @return false where nothing arrives; `out` is then undefined
+  [[gnu::always_inline]] bool sample(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const {
+    const auto* mesh = std::get_if<MeshLamp>(&lamps_[i].shape);
+    return mesh != nullptr && mesh->uniform ? mesh->sample(x, u, out) : sample_other(i, x, u, out);
+  }
 
   /// Lamp of an emissive triangle, or -1.
   int lamp_of(uint32_t triangle) const { return lamp_of_.empty() ? -1 : lamp_of_[triangle]; }
@@ -114,7 +144,7 @@ class Lamps {
 
   /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric bound, never its
   /// strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the cone). Dimensionless.
-  float importance(std::size_t i, const Vec3& x, const Vec3& n) const {
+  [[gnu::always_inline]] float importance(std::size_t i, const Vec3& x, const Vec3& n) const {
     const LampBound& b = bounds_[i];
     if (b.kind != LampBound::Kind::near)
       return b.kind == LampBound::Kind::everywhere || glm::dot(b.axis, n) > 0 ? 1.0f : 0.0f;
@@ -126,6 +156,8 @@ class Lamps {
   }
 
  private:
+  bool sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const;
+
   const Scene* scene_;
   const World* world_;
   std::vector<Lamp> lamps_;

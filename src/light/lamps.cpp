@@ -75,12 +75,12 @@ Lamps::Lamps(const Scene& scene, const World& world) : scene_(&scene), world_(&w
   for (const Lamp& lamp : lamps_) bounds_.push_back(bound_of(lamp, scene_radius2_));
 }
 
-std::optional<LightSample> Lamps::sample(std::size_t i, const Vec3& x, Vec2 u) const {
+bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const {
   return std::visit(
-      Overload{[&](const PunctualLamp& l) { return sconce::sample(l, x); },
-               [&](const SunLamp& l) { return sconce::sample(l); },
-               [&](const SkyLamp& l) { return sconce::sample(l, u); },
-               [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u); }},
+      Overload{[&](const PunctualLamp& l) { return sconce::sample(l, x, out); },
+               [&](const SunLamp& l) { return sconce::sample(l, out); },
+               [&](const SkyLamp& l) { return sconce::sample(l, u, out); },
+               [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u, out); }},
       lamps_[i].shape);
 }
 

@@ -125,28 +125,13 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
           Rgb(static_cast<float>(flux[0]), static_cast<float>(flux[1]), static_cast<float>(flux[2])), false};
 }
 
-std::optional<LightSample> sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u) {
-  const MeshLamp::Piece& piece = lamp.pieces[lamp.table.sample(u.x)];
-  float b1 = u.x, b2 = u.y;
-  if (b2 > b1) {
-    b1 *= 0.5f;
-    b2 -= b1;
-  } else {
-    b2 *= 0.5f;
-    b1 -= b2;
-  }
-  const Vec3 to = piece.p0 + b1 * piece.e1 + b2 * piece.e2 - x;
-  const float d2 = glm::dot(to, to);
-  if (!(d2 > 1e-14f)) return std::nullopt;
-  const float d = std::sqrt(d2);
-  const Vec3 direction = to / d;
-  float cosine = -glm::dot(direction, piece.normal);
-  if (lamp.two_sided) cosine = std::abs(cosine);
-  if (!(cosine > 1e-7f)) return std::nullopt;
-  const Rgb emission = lamp.uniform ? piece.emission
-                                    : emission_at(scene, world, piece.triangle,
-                                                  piece.b0 + b1 * (piece.b1 - piece.b0) + b2 * (piece.b2 - piece.b0));
-  return LightSample{direction, d, emission, piece.density * d2 / cosine, false};
+bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u, LightSample& out) {
+  std::pair<const MeshLamp::Piece*, Vec2> where;
+  if (!lamp.sample(x, u, out, &where)) return false;
+  const auto& [piece, b] = where;
+  out.radiance = emission_at(scene, world, piece->triangle,
+                             piece->b0 + b.x * (piece->b1 - piece->b0) + b.y * (piece->b2 - piece->b0));
+  return true;
 }
 
 float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,

@@ -39,10 +39,10 @@ Lamp make_sun(const Light& light) {
   return {light.name, light.group, SunLamp{-forward(light.frame), light.intensity}, light.intensity, true};
 }
 
-std::optional<LightSample> sample(const PunctualLamp& lamp, const Vec3& x) {
+bool sample(const PunctualLamp& lamp, const Vec3& x, LightSample& out) {
   const Vec3 to = lamp.position - x;
   const float d2 = glm::dot(to, to);
-  if (!(d2 > 1e-12f)) return std::nullopt;
+  if (!(d2 > 1e-12f)) return false;
   const float d = std::sqrt(d2);
   const Vec3 direction = to / d;
   float factor = cone(lamp, glm::dot(-direction, lamp.axis)) / d2;
@@ -50,12 +50,14 @@ std::optional<LightSample> sample(const PunctualLamp& lamp, const Vec3& x) {
     const float q = d / lamp.range;
     factor *= std::clamp(1 - q * q * q * q, 0.0f, 1.0f);
   }
-  if (factor <= 0) return std::nullopt;
-  return LightSample{direction, d, lamp.intensity * factor, 1.0f, true};
+  if (factor <= 0) return false;
+  out = {direction, d, lamp.intensity * factor, 1.0f, true};
+  return true;
 }
 
-std::optional<LightSample> sample(const SunLamp& lamp) {
-  return LightSample{lamp.direction, kInfinite, lamp.illuminance, 1.0f, true};
+bool sample(const SunLamp& lamp, LightSample& out) {
+  out = {lamp.direction, kInfinite, lamp.illuminance, 1.0f, true};
+  return true;
 }
 
 }  // namespace sconce

@@ -9,7 +9,7 @@ namespace sconce {
 Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float inner, float outer, bool spot);
 Lamp make_sun(const Light& light);
 
-std::optional<LightSample> sample(const PunctualLamp& lamp, const Vec3& x);
-std::optional<LightSample> sample(const SunLamp& lamp);
+bool sample(const PunctualLamp& lamp, const Vec3& x, LightSample& out);
+bool sample(const SunLamp& lamp, LightSample& out);
 
 }  // namespace sconce

@@ -62,10 +62,11 @@ Lamp make_sky(const Light& light, const SkyLight& sky) {
   return {light.name, light.group, std::move(lamp), flux, true};
 }
 
-std::optional<LightSample> sample(const SkyLamp& lamp, Vec2 u) {
+bool sample(const SkyLamp& lamp, Vec2 u, LightSample& out) {
   if (lamp.image == nullptr) {
     const float y = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - y * y)), phi = 2 * kPi * u.y;
-    return LightSample{Vec3(r * std::cos(phi), y, r * std::sin(phi)), kInfinite, lamp.scale, 1 / (4 * kPi), false};
+    out = {Vec3(r * std::cos(phi), y, r * std::sin(phi)), kInfinite, lamp.scale, 1 / (4 * kPi), false};
+    return true;
   }
   const std::size_t i = lamp.pixels.sample(u.x);
   const int width = lamp.image->width;
@@ -75,7 +76,8 @@ std::optional<LightSample> sample(const SkyLamp& lamp, Vec2 u) {
   const float phi = ((static_cast<float>(x) + u.x) / static_cast<float>(width) - 0.5f) * 2 * kPi;
   const Vec3 local(r * std::sin(phi), height, -r * std::cos(phi));
   const float density = static_cast<float>(lamp.pixels.probability(i) / pixel_solid_angle(*lamp.image, y));
-  return LightSample{glm::transpose(lamp.to_local) * local, kInfinite, lamp.scale * lamp.image->rgb_at(x, y), density, false};
+  out = {glm::transpose(lamp.to_local) * local, kInfinite, lamp.scale * lamp.image->rgb_at(x, y), density, false};
+  return true;
 }
 
 Rgb radiance(const SkyLamp& lamp, const Vec3& direction) {

@@ -8,7 +8,7 @@ namespace sconce {
 
 Lamp make_sky(const Light& light, const SkyLight& sky);
 
-std::optional<LightSample> sample(const SkyLamp& lamp, Vec2 u);
+bool sample(const SkyLamp& lamp, Vec2 u, LightSample& out);
 Rgb radiance(const SkyLamp& lamp, const Vec3& direction);
 /// Density of sample() per steradian.
 float pdf(const SkyLamp& lamp, const Vec3& direction);

@@ -41,10 +41,11 @@ class PathKernel {
 
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
   void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
-    SurfacePoint at = receiver.sample(sobol_pair(index, kFootprintPair, stream));
+    const uint32_t reversed = detail::reverse_bits(index);
+    SurfacePoint at = receiver.sample(sobol_pair_reversed(reversed, kFootprintPair, stream));
     Rgb throughput{1.0f};
     for (uint32_t depth = 0;; ++depth) {
-      const auto pair = [&](uint32_t slot) { return sobol_pair(index, depth * slots_ + slot, stream); };
+      const auto pair = [&](uint32_t slot) { return sobol_pair_reversed(reversed, depth * slots_ + slot, stream); };
       const Vec2 choice = pair(1);
       picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
@@ -99,16 +100,16 @@ class PathKernel {
 
   void next_event(const SurfacePoint& at, uint32_t lamp, float expected, Vec2 u, const Rgb& throughput,
                   std::span<double> sums) {
-    const auto light = lamps_.sample(lamp, at.position, u);
-    if (!light || light->radiance.is_black()) return;
-    const float cosine = glm::dot(light->direction, at.shading_normal);
-    if (!(cosine > 0) || !(glm::dot(light->direction, at.geometric_normal) > 0)) return;
-    const Vec3 origin = offset_origin(at.position, at.geometric_normal, light->direction);
+    LightSample light;
+    if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
+    const float cosine = glm::dot(light.direction, at.shading_normal);
+    if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
+    const Vec3 origin = offset_origin(at.position, at.geometric_normal, light.direction);
     // The lamp's own surface must not count as an occluder.
-    const float end = light->delta ? light->distance : light->distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
-    if (end > 0 && rays_.occluded({origin, light->direction, end})) return;
-    const float density = light->delta ? expected : expected * light->pdf + cosine * kInvPi;
-    add(sums, lamp, throughput * light->radiance * (cosine / density));
+    const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
+    if (end > 0 && rays_.occluded({origin, light.direction, end})) return;
+    const float density = light.delta ? expected : expected * light.pdf + cosine * kInvPi;
+    add(sums, lamp, throughput * light.radiance * (cosine / density));
   }
 
   void add(std::span<double> sums, uint32_t lamp, const Rgb& value) {
