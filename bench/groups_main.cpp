@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light groups cost: time of a bake with one group, named groups and one group per lamp at the same number of paths;
-// and each group's noise against that of a bake of its lamps alone (the others not emitting) with the same number of paths.
-// Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels; or groups SCENE [SAMPLES]. Every 32nd tile is measured.
+// What light groups cost: time of a bake with one group, named groups and one group per lamp at the same
+// number of paths; and each group's noise against that of a bake of its lamps alone (the others not emitting)
+// with the same number of paths. Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels; or groups
+// SCENE [SAMPLES]. Every 32nd tile is measured.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -27,7 +28,8 @@ struct Result {
 };
 
 /// Bakes the measured tiles of a scene whose charts are `receivers`.
-Result bake(const Scene& scene, const World& world, const Tracer& tracer, const TexelReceivers& receivers, int samples) {
+Result bake(const Scene& scene, const World& world, const Tracer& tracer, const TexelReceivers& receivers,
+            int samples) {
   const Lamps lamps(scene, world);
   BakeParams params;
   params.samples = samples;
@@ -39,7 +41,8 @@ Result bake(const Scene& scene, const World& world, const Tracer& tracer, const 
   parallel_for(tiles, 1, [&](std::size_t k) {
     std::vector<GroupValue> out(groups);
     const std::size_t first = k * kEvery * TexelReceivers::kTile;
-    for (std::size_t i = first; i < std::min(receivers.size(), first + TexelReceivers::kTile); ++i, ++counts[k]) {
+    for (std::size_t i = first; i < std::min(receivers.size(), first + TexelReceivers::kTile);
+         ++i, ++counts[k]) {
       solver->solve(receivers.footprint(i), out);
       for (std::size_t g = 0; g < groups; ++g) {
         sums[k][2 * g] += static_cast<double>(luminance(out[g].illuminance));
@@ -70,7 +73,8 @@ double median(std::vector<double> v) {
 
 int main(int argc, char** argv) {
   const char* data = std::getenv("SCONCE_TEST_DATA");
-  const std::string path = argc > 1 ? argv[1] : std::string(data != nullptr ? data : "../shared/data") + "/glb/modern-hall.glb";
+  const std::string path =
+      argc > 1 ? argv[1] : std::string(data != nullptr ? data : "../shared/data") + "/glb/modern-hall.glb";
   const int samples = argc > 2 ? std::atoi(argv[2]) : 64;
   try {
     Scene scene = import_scene(path);
@@ -95,7 +99,8 @@ int main(int argc, char** argv) {
     }
     fmt::print("time at the same number of paths, median of five pairs\n");
     for (int m = 0; m < 3; ++m)
-      fmt::print("  {:>3} groups: {:.3f} x one group ({:.2f} s)\n", results[m].names.size(), median(ratios[m]), results[m].seconds);
+      fmt::print("  {:>3} groups: {:.3f} x one group ({:.2f} s)\n", results[m].names.size(),
+                 median(ratios[m]), results[m].seconds);
 
     for (int m = 1; m < 3; ++m) {
       fmt::print("relative noise of {} groups, together and alone\n", results[m].names.size());
@@ -115,8 +120,10 @@ int main(int argc, char** argv) {
         std::erase_if(alone.lights, [&](const Light& light) { return light.group.value != g; });
         const World alone_world = make_world(alone);
         const Result single = bake(alone, alone_world, tracer, receivers, samples);
-        const double together = results[m].error[g] / results[m].mean[g], by_itself = single.error[g] / single.mean[g];
-        fmt::print("  {:<24} {:>8.1f} % {:>8.1f} %  {:.2f} x\n", results[m].names[g], 100 * together, 100 * by_itself, together / by_itself);
+        const double together = results[m].error[g] / results[m].mean[g],
+                     by_itself = single.error[g] / single.mean[g];
+        fmt::print("  {:<24} {:>8.1f} % {:>8.1f} %  {:.2f} x\n", results[m].names[g], 100 * together,
+                   100 * by_itself, together / by_itself);
       }
     }
   } catch (const std::exception& error) {

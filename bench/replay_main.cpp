@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a bake is rays: the rays of a bake's own paths, recorded, then replayed through bare Embree calls with the
-// same flags and threads. Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels, 64 samples, 8 bounces; or
-// replay SCENE. Every 16th tile is measured: all rays at once would not fit in memory.
+// How much of a bake is rays: the rays of a bake's own paths, recorded, then replayed through bare Embree
+// calls with the same flags and threads. Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels, 64
+// samples, 8 bounces; or replay SCENE. Every 16th tile is measured: all rays at once would not fit in memory.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -46,10 +46,10 @@ RTCScene bare_scene(RTCDevice device, const World& world) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             sizeof(Vec3), world.positions.size()));
-  auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                  sizeof(Triangle), world.triangles.size()));
+  auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), world.positions.size()));
+  auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), world.triangles.size()));
   std::copy(world.positions.begin(), world.positions.end(), vertices);
   std::copy(world.triangles.begin(), world.triangles.end(), triangles);
   rtcCommitGeometry(geometry);
@@ -92,7 +92,8 @@ double timed(const std::function<void()>& f) {
 
 int main(int argc, char** argv) {
   const char* data = std::getenv("SCONCE_TEST_DATA");
-  const std::string path = argc > 1 ? argv[1] : std::string(data != nullptr ? data : "../shared/data") + "/glb/modern-hall.glb";
+  const std::string path =
+      argc > 1 ? argv[1] : std::string(data != nullptr ? data : "../shared/data") + "/glb/modern-hall.glb";
   try {
     Scene scene = import_scene(path);
     assign_groups(scene, Grouping::automatic);
@@ -126,14 +127,17 @@ int main(int argc, char** argv) {
     for (int round = 0; round < 5; ++round) {
       const double bake = timed([&] { parallel_for(tiles, 1, [&](std::size_t k) { each(k, tracer); }); });
       std::vector<uint64_t> hits(tiles);
-      const double rays = timed([&] { parallel_for(tiles, 1, [&](std::size_t k) { hits[k] = replay(bare, recorded[k]); }); });
+      const double rays =
+          timed([&] { parallel_for(tiles, 1, [&](std::size_t k) { hits[k] = replay(bare, recorded[k]); }); });
       ratios.push_back(rays / bake);
       fmt::print("bake {:.3f} s, its {:.1f} M rays replayed {:.3f} s ({:.1f} M rays/s): {:.1f} %\n", bake,
-                 static_cast<double>(count) / 1e6, rays, static_cast<double>(count) / rays / 1e6, 100 * rays / bake);
+                 static_cast<double>(count) / 1e6, rays, static_cast<double>(count) / rays / 1e6,
+                 100 * rays / bake);
     }
     std::sort(ratios.begin(), ratios.end());
-    fmt::print("median: rays are {:.1f} % of the bake's time ({} receivers of {}, {} threads)\n", 100 * ratios[2],
-               tiles * TexelReceivers::kTile, receivers.size(), tbb::this_task_arena::max_concurrency());
+    fmt::print("median: rays are {:.1f} % of the bake's time ({} receivers of {}, {} threads)\n",
+               100 * ratios[2], tiles * TexelReceivers::kTile, receivers.size(),
+               tbb::this_task_arena::max_concurrency());
     rtcReleaseScene(bare);
     rtcReleaseDevice(device);
   } catch (const std::exception& error) {

@@ -37,7 +37,8 @@ class Bake : public testing::Test {
     job.params.samples = samples;
     return job;
   }
-  /// Everything that must agree between two packages of one bake: the bytes of layers, noise, receivers and scene.
+  /// Everything that must agree between two packages of one bake: the bytes of layers, noise, receivers and
+  /// scene.
   static std::map<std::string, std::string> bytes(const fs::path& package) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(package))
@@ -78,8 +79,8 @@ TEST_F(Bake, ThreeShardsMergedAreTheWhole) {
 }
 
 TEST_F(Bake, KilledAnywhereAndResumedIsTheWhole) {
-  const std::vector<std::string> arguments{SCONCE_PROGRAM, "bake", scene.string(), "--density", "24", "--samples", "256",
-                                           "--quiet", "--threads", "2"};
+  const std::vector<std::string> arguments{SCONCE_PROGRAM, "bake", scene.string(), "--density", "24",
+                                           "--samples",    "256",  "--quiet",      "--threads", "2"};
   const auto start = [&](const fs::path& output, bool resume) {
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"-o", output.string()});
@@ -111,7 +112,8 @@ TEST_F(Bake, KilledAnywhereAndResumedIsTheWhole) {
     std::this_thread::sleep_for(whole_time * std::uniform_real_distribution<double>(0.05, 0.7)(random));
     ::kill(pid, SIGKILL);
     if (finish(pid) == -SIGKILL) ++kills;
-    EXPECT_TRUE(!fs::exists(folder / "killed.sconce") || Package::open(folder / "killed.sconce").manifest().pages > 0);
+    EXPECT_TRUE(!fs::exists(folder / "killed.sconce") ||
+                Package::open(folder / "killed.sconce").manifest().pages > 0);
     if (fs::exists(folder / "killed.sconce")) fs::remove_all(folder / "killed.sconce");
   }
   EXPECT_GT(kills, 3);
@@ -153,7 +155,8 @@ TEST_F(Bake, GroupsSumToOne) {
   const Image a = parts.layer(0, 0), b = parts.layer(1, 0), sum = all.layer(0, 0);
   double worst = 0;
   for (std::size_t i = 0; i < sum.data.size(); ++i)
-    worst = std::max(worst, static_cast<double>(std::abs(a.data[i] + b.data[i] - sum.data[i]) / std::max(1e-3f, sum.data[i])));
+    worst = std::max(worst, static_cast<double>(std::abs(a.data[i] + b.data[i] - sum.data[i]) /
+                                                std::max(1e-3f, sum.data[i])));
   EXPECT_LT(worst, 1e-5);
 }
 

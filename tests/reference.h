@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A package against path-traced references of its scene, group by group: the bar of contract.md, "Relative RMSE".
+// A package against path-traced references of its scene, group by group: the bar of contract.md, "Relative
+// RMSE".
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +26,9 @@ inline std::vector<GroupError> compare_to_references(const Package& package, con
   const View view(package);
   const Camera camera = view.camera("main");
   for (const GroupInfo& group : package.manifest().groups) {
-    const auto name = [&](int seed) { return folder / fmt::format("{}.main.{}.s{}.exr", scene, group.name, seed); };
+    const auto name = [&](int seed) {
+      return folder / fmt::format("{}.main.{}.s{}.exr", scene, group.name, seed);
+    };
     const Image s0 = read_exr(name(0)), s1 = read_exr(name(1));
     const std::vector<std::string> settings{group.name + "=1"};
     const MixSpec mix = make_mix(package.manifest().groups, settings, "off", {});
@@ -36,7 +39,8 @@ inline std::vector<GroupError> compare_to_references(const Package& package, con
     const RelativeRmse error = relative_rmse(picture, s0, &s1, &coverage);
     result.push_back({group.name, error.mean_ratio, error.rmse, error.noise});
     if (!pictures.empty()) {
-      write_png(pictures / fmt::format("{}.{}.error.png", scene, group.name), error_picture(picture, s0, &coverage, error.boxes));
+      write_png(pictures / fmt::format("{}.{}.error.png", scene, group.name),
+                error_picture(picture, s0, &coverage, error.boxes));
       write_exr(pictures / fmt::format("{}.{}.exr", scene, group.name), picture, PixelType::full);
     }
   }

@@ -33,8 +33,12 @@ void check(const std::string& scene, float density, int samples, double most_rms
   }
 }
 
-TEST(Reference, CornellBox) { check("cornell-box", 40, 256, 0.05); }
-TEST(Reference, CornellTwoLights) { check("cornell-two-lights", 40, 256, 0.05); }
+TEST(Reference, CornellBox) {
+  check("cornell-box", 40, 256, 0.05);
+}
+TEST(Reference, CornellTwoLights) {
+  check("cornell-two-lights", 40, 256, 0.05);
+}
 
 }  // namespace
 }  // namespace sconce

@@ -11,7 +11,8 @@ namespace sconce::test {
 inline Scene two_lamp_room() {
   Scene scene;
   scene.name = "room";
-  const auto white = add_material(scene, "white", Rgb(0.7f)), red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f));
+  const auto white = add_material(scene, "white", Rgb(0.7f)),
+             red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f));
   add_quad(scene, "floor", white, Vec3(-1, 0, -1), Vec3(0, 0, 2), Vec3(2, 0, 0));
   add_quad(scene, "ceiling", white, Vec3(-1, 2, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
   add_quad(scene, "back", white, Vec3(-1, 0, -1), Vec3(2, 0, 0), Vec3(0, 2, 0));
@@ -19,9 +20,12 @@ inline Scene two_lamp_room() {
   add_quad(scene, "red wall", red, Vec3(-1, 0, -1), Vec3(0, 2, 0), Vec3(0, 0, 2));
   add_quad(scene, "right wall", white, Vec3(1, 0, -1), Vec3(0, 0, 2), Vec3(0, 2, 0));
   add_box(scene, "block", white, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
-  const auto warm = add_material(scene, "warm", Rgb(0), Rgb(30, 25, 18)), cool = add_material(scene, "cool", Rgb(0), Rgb(5, 9, 14));
-  const auto left = add_quad(scene, "lamp left", warm, Vec3(-0.8f, 1.98f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  const auto right = add_quad(scene, "lamp right", cool, Vec3(0.4f, 1.98f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
+  const auto warm = add_material(scene, "warm", Rgb(0), Rgb(30, 25, 18)),
+             cool = add_material(scene, "cool", Rgb(0), Rgb(5, 9, 14));
+  const auto left =
+      add_quad(scene, "lamp left", warm, Vec3(-0.8f, 1.98f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
+  const auto right =
+      add_quad(scene, "lamp right", cool, Vec3(0.4f, 1.98f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
   scene.instances[left.value].group_name = "left";
   scene.instances[right.value].group_name = "right";
   Camera camera;

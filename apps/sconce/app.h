@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every verb shares. One file per verb; main.cpp holds the table; options.cpp is the only file that includes CLI11.
+// What every verb shares. One file per verb; main.cpp holds the table; options.cpp is the only file that
+// includes CLI11.
 #pragma once
 
 #include <functional>
@@ -15,27 +16,30 @@ namespace sconce::app {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kDiffers = 3 };
 
-/// Declares a verb's options once: command line, --config / side-file key, --help, provenance. A value is read from the
-/// command line, else from the [options] table of --config or of the scene's side file, else it stays the default.
+/// Declares a verb's options once: command line, --config / side-file key, --help, provenance. A value is
+/// read from the command line, else from the [options] table of --config or of the scene's side file, else it
+/// stays the default.
 class Options {
  public:
   explicit Options(std::string verb, std::string summary);
   ~Options();
 
   void positional(const std::string& name, std::string* value, const std::string& doc, bool required = true);
-  void positionals(const std::string& name, std::vector<std::string>* values, const std::string& doc, bool required = false);
+  void positionals(const std::string& name, std::vector<std::string>* values, const std::string& doc,
+                   bool required = false);
   void option(const std::string& names, std::string* value, const std::string& doc);
   void option(const std::string& names, std::vector<std::string>* values, const std::string& doc);
   void option(const std::string& names, int* value, const std::string& doc);
   void option(const std::string& names, double* value, const std::string& doc);  ///< accepts 2% as 0.02
-  void duration(const std::string& names, double* seconds, const std::string& doc);  ///< 90s, 10m, 1h; bare = seconds
+  void duration(const std::string& names, double* seconds,
+                const std::string& doc);  ///< 90s, 10m, 1h; bare = seconds
   void flag(const std::string& names, bool* value, const std::string& doc);
 
   /// Common to all: --json, --quiet, --threads N, --config FILE, --help. `argv` starts after the verb.
   /// @return exit code when nothing is left to do (help, usage error), else nullopt
   std::optional<int> parse(int argc, const char* const* argv);
-  /// Applies `[options]` of a TOML file where the command line and files applied before said nothing (--config is applied
-  /// by parse()). A file that does not exist or has no such table applies nothing.
+  /// Applies `[options]` of a TOML file where the command line and files applied before said nothing
+  /// (--config is applied by parse()). A file that does not exist or has no such table applies nothing.
   /// @throws UsageError (file:line, key, allowed)
   void apply_file(const std::string& path, const std::string& source_name);
 

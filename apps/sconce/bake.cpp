@@ -66,7 +66,8 @@ BakeState open_state(const Request& request, const PreparedBake& bake, const Pro
     throw Error(path.string(), "belongs to another scene or other options, so it cannot be resumed",
                 "the options of the first run, or no --resume");
   if (state.header().isa != bake.header().isa)
-    throw Error(path.string(), "was begun on another instruction set (" + state.header().isa + ")", bake.header().isa);
+    throw Error(path.string(), "was begun on another instruction set (" + state.header().isa + ")",
+                bake.header().isa);
   return state;
 }
 
@@ -82,25 +83,30 @@ bool up_to_date(const fs::path& output, const PreparedBake& bake) {
 
 void check_writable(const fs::path& output) {
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) throw Error(output.string(), "cannot be written: no such folder " + folder.string());
+  if (!fs::is_directory(folder))
+    throw Error(output.string(), "cannot be written: no such folder " + folder.string());
   if (fs::exists(output) && !fs::exists(output / "manifest.json"))
     throw Error(output.string(), "exists and is no package, so it is left alone");
 }
 
 int execute(const Request& request, const Options& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   check_writable(request.output);
   const PreparedBake bake(request.job, progress);
   if (request.dry_run) {
     const AtlasReport& report = bake.atlas.report;
-    fmt::print("{}: {} triangles, {} lamps in {} groups\n", request.job.scene.string(), bake.world.size(), bake.lamps.size(),
-               bake.scene.groups.size());
-    fmt::print("atlas: {} page(s) of {} x {}, {:.4g} texels/m, {} charts, {} receivers, {} invalid, utilisation {:.1f} %, "
-               "stretch mean {:.2f} max {:.2f}, {} triangles with a visible back\n",
-               bake.atlas.pages, bake.atlas.width, bake.atlas.height, static_cast<double>(bake.atlas.density), report.charts,
-               bake.receivers.size(), report.invalid, 100 * report.utilisation, report.stretch_mean, report.stretch_max,
-               report.twins);
+    fmt::print("{}: {} triangles, {} lamps in {} groups\n", request.job.scene.string(), bake.world.size(),
+               bake.lamps.size(), bake.scene.groups.size());
+    fmt::print(
+        "atlas: {} page(s) of {} x {}, {:.4g} texels/m, {} charts, {} receivers, {} invalid, utilisation "
+        "{:.1f} %, "
+        "stretch mean {:.2f} max {:.2f}, {} triangles with a visible back\n",
+        bake.atlas.pages, bake.atlas.width, bake.atlas.height, static_cast<double>(bake.atlas.density),
+        report.charts, bake.receivers.size(), report.invalid, 100 * report.utilisation, report.stretch_mean,
+        report.stretch_max, report.twins);
     return kDone;
   }
   if (!request.force && !request.shard && up_to_date(request.output, bake)) {
@@ -110,7 +116,8 @@ int execute(const Request& request, const Options& options, const Progress& prog
   BakeState state = open_state(request, bake, progress);
   run_bake(bake, request.shard.value_or(Shard{}), state, progress);
   if (request.shard) {
-    if (!options.quiet) fmt::print("{}: done in {:.1f} s; `sconce merge` joins the shards\n", state.path().string(), seconds());
+    if (!options.quiet)
+      fmt::print("{}: done in {:.1f} s; `sconce merge` joins the shards\n", state.path().string(), seconds());
     return kDone;
   }
   std::map<std::string, Provenance> provenance;
@@ -131,7 +138,8 @@ int run_bake(int argc, const char* const* argv) {
   int samples = 0, bounces = -1, seed = 1, page = 0;
   double density = 0, noise = 0;
   BakeJob& job = request.job;
-  options.positional("SCENE", &scene, "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
+  options.positional("SCENE", &scene,
+                     "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
   options.option("--solver", &job.solver, "how light travels: path");
@@ -151,12 +159,16 @@ int run_bake(int argc, const char* const* argv) {
   job.scene = fs::absolute(scene);
   options.apply_file(fs::path(job.scene).replace_extension(".toml").string(), "side file");
 
-  if (page < 0 || (page > 0 && page < 32) || page > 16384) throw UsageError("--atlas", fmt::format("{} is out of range", page), "32 to 16384");
-  if (density < 0 || !(density < 1e5)) throw UsageError("--density", fmt::format("{} is out of range", density), "above 0, below 100000");
+  if (page < 0 || (page > 0 && page < 32) || page > 16384)
+    throw UsageError("--atlas", fmt::format("{} is out of range", page), "32 to 16384");
+  if (density < 0 || !(density < 1e5))
+    throw UsageError("--density", fmt::format("{} is out of range", density), "above 0, below 100000");
   if (page > 0 && density > 0) throw UsageError("--atlas", "cannot stand beside --density");
-  if (samples < 0 || samples > 1 << 24) throw UsageError("--samples", fmt::format("{} is out of range", samples), "1 to 16777216");
+  if (samples < 0 || samples > 1 << 24)
+    throw UsageError("--samples", fmt::format("{} is out of range", samples), "1 to 16777216");
   if (bounces < -1) throw UsageError("--bounces", fmt::format("{} is out of range", bounces), "-1 or more");
-  if (noise < 0 || noise >= 1) throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
+  if (noise < 0 || noise >= 1)
+    throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
   if (noise > 0 && samples == 0) samples = samples_of("final");
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;
@@ -167,7 +179,8 @@ int run_bake(int argc, const char* const* argv) {
   parse_grouping(job.grouping);
   find_solver(job.solver);
   if (!shard.empty()) request.shard = parse_shard(shard);
-  request.output = output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);
+  request.output =
+      output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);
   if (!fs::exists(job.scene)) throw Error(scene, "no such file");
 
   const ThreadLimit threads(options.threads);

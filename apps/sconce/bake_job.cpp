@@ -21,7 +21,8 @@ Scene load(const BakeJob& job, const Progress& progress) {
   assign_groups(scene, parse_grouping(job.grouping));
   if (scene.groups.empty())
     throw Error(job.scene.string(), "the scene has no lights",
-                "emissive materials, KHR_lights_punctual, or [[light]] and [sky] in " + job.scene.stem().string() + ".toml");
+                "emissive materials, KHR_lights_punctual, or [[light]] and [sky] in " +
+                    job.scene.stem().string() + ".toml");
   return scene;
 }
 
@@ -63,17 +64,11 @@ std::vector<std::string> group_encodings(const std::string& text, const Scene& s
 }  // namespace
 
 std::string BakeJob::to_json() const {
-  const nlohmann::json json = {{"scene", scene.string()},
-                               {"grouping", grouping},
-                               {"solver", solver},
-                               {"encoding", encoding},
-                               {"page_size", atlas.page_size},
-                               {"max_page", atlas.max_page},
-                               {"density", atlas.density},
-                               {"samples", params.samples},
-                               {"bounces", params.bounces},
-                               {"seed", params.seed},
-                               {"noise", params.noise}};
+  const nlohmann::json json = {
+      {"scene", scene.string()},  {"grouping", grouping},         {"solver", solver},
+      {"encoding", encoding},     {"page_size", atlas.page_size}, {"max_page", atlas.max_page},
+      {"density", atlas.density}, {"samples", params.samples},    {"bounces", params.bounces},
+      {"seed", params.seed},      {"noise", params.noise}};
   return json.dump();
 }
 
@@ -113,7 +108,12 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress)
 }
 
 BakeHeader PreparedBake::header() const {
-  return {hash, isa(), static_cast<uint32_t>(scene.groups.size()), receivers.size(), TexelReceivers::kTile, job.to_json()};
+  return {hash,
+          isa(),
+          static_cast<uint32_t>(scene.groups.size()),
+          receivers.size(),
+          TexelReceivers::kTile,
+          job.to_json()};
 }
 
 std::string PreparedBake::result_hash() const {
@@ -126,18 +126,22 @@ void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Pro
   bake_tiles(*solver, bake.job.params, bake.receivers, shard, state, progress);
 }
 
-Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, const std::filesystem::path& output,
-                      const std::map<std::string, Provenance>& options, const Progress& progress) {
+Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
+                      const std::filesystem::path& output, const std::map<std::string, Provenance>& options,
+                      const Progress& progress) {
   if (const auto missing = missing_tiles(states, bake.job.params); !missing.empty())
-    throw Error(output.string(), fmt::format("{} of {} tiles are missing, the first is {}", missing.size(),
-                                             states.front().tiles(), missing.front()),
+    throw Error(output.string(),
+                fmt::format("{} of {} tiles are missing, the first is {}", missing.size(),
+                            states.front().tiles(), missing.front()),
                 "all shards of one bake");
   const Atlas& atlas = bake.atlas;
-  const std::size_t page_texels = static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
+  const std::size_t page_texels =
+      static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
 
   PackageContents contents;
   for (int p = 0; p < atlas.pages; ++p)
-    contents.receivers.push_back(Image(atlas.width, atlas.height, {"albedo.R", "albedo.G", "albedo.B", "weight"}));
+    contents.receivers.push_back(
+        Image(atlas.width, atlas.height, {"albedo.R", "albedo.G", "albedo.B", "weight"}));
   std::vector<float> areas(bake.receivers.size());
   progress.at("receivers", 0, 1);
   parallel_for(bake.receivers.size(), 256, [&](std::size_t i) {
@@ -158,7 +162,8 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, con
   manifest.density = static_cast<double>(atlas.density);
   manifest.lightmap_set = baked.lightmap_set;
   manifest.instance_pages = baked.pages;
-  for (const Id<Instance> twin : baked.twins) manifest.instance_twins.push_back(twin.valid() ? static_cast<int>(twin.value) : -1);
+  for (const Id<Instance> twin : baked.twins)
+    manifest.instance_twins.push_back(twin.valid() ? static_cast<int>(twin.value) : -1);
   manifest.options = options;
   manifest.facts = {{"solver", bake.job.solver},
                     {"samples", fmt::format("{}", bake.job.params.samples)},
@@ -169,12 +174,14 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, con
                     {"charts", fmt::format("{}", atlas.report.charts)},
                     {"utilisation", fmt::format("{:.3f}", atlas.report.utilisation)},
                     {"invalid", fmt::format("{}", atlas.report.invalid)},
-                    {"stretch", fmt::format("mean {:.3f}, max {:.3f}", atlas.report.stretch_mean, atlas.report.stretch_max)}};
+                    {"stretch", fmt::format("mean {:.3f}, max {:.3f}", atlas.report.stretch_mean,
+                                            atlas.report.stretch_max)}};
   contents.encodings = group_encodings(bake.job.encoding, bake.scene);
 
   std::vector<std::string> noise_channels;
   for (const LightGroup& group : bake.scene.groups) noise_channels.push_back(group.name);
-  for (int p = 0; p < atlas.pages; ++p) contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
+  for (int p = 0; p < atlas.pages; ++p)
+    contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
   const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
   for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
     progress.at("layers", g, bake.scene.groups.size());
@@ -184,8 +191,8 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, con
       for (std::size_t i = 0; i < page_texels; ++i)
         contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i];
     const GroupFlux& flux = fluxes[g];
-    manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite, layer.mean_lux,
-                               layer.relative_noise, flux.lamps});
+    manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite,
+                               layer.mean_lux, layer.relative_noise, flux.lamps});
     contents.layers.push_back(std::move(layer.pages));
   }
   contents.scene = std::move(baked.scene);
@@ -200,19 +207,24 @@ void print_result(const Manifest& manifest, const std::filesystem::path& output,
   if (json) {
     nlohmann::json groups = nlohmann::json::array();
     for (const GroupInfo& group : manifest.groups)
-      groups.push_back({{"name", group.name}, {"lumens", group.lumens}, {"mean_lux", group.mean_lux}, {"noise", group.noise}});
-    const nlohmann::json report = {{"output", output.string()}, {"seconds", seconds},         {"width", manifest.width},
-                                   {"height", manifest.height}, {"pages", manifest.pages},    {"layer_bytes", bytes},
+      groups.push_back({{"name", group.name},
+                        {"lumens", group.lumens},
+                        {"mean_lux", group.mean_lux},
+                        {"noise", group.noise}});
+    const nlohmann::json report = {{"output", output.string()}, {"seconds", seconds},
+                                   {"width", manifest.width},   {"height", manifest.height},
+                                   {"pages", manifest.pages},   {"layer_bytes", bytes},
                                    {"groups", groups},          {"facts", manifest.facts}};
     fmt::print("{}\n", report.dump(2));
     return;
   }
-  fmt::print("{}: {} group{}, {} page{} of {} x {}, {:.1f} MB of layers, {:.1f} s\n", output.string(), manifest.groups.size(),
-             manifest.groups.size() == 1 ? "" : "s", manifest.pages, manifest.pages == 1 ? "" : "s", manifest.width,
-             manifest.height, bytes / 1e6, seconds);
+  fmt::print("{}: {} group{}, {} page{} of {} x {}, {:.1f} MB of layers, {:.1f} s\n", output.string(),
+             manifest.groups.size(), manifest.groups.size() == 1 ? "" : "s", manifest.pages,
+             manifest.pages == 1 ? "" : "s", manifest.width, manifest.height, bytes / 1e6, seconds);
   for (const GroupInfo& group : manifest.groups)
     fmt::print("  {:<20} {:>10} {:>12.4g} lx mean  noise {:.1f} %\n", group.name,
-               group.infinite ? "-" : fmt::format("{:.4g} lm", group.lumens), group.mean_lux, 100 * group.noise);
+               group.infinite ? "-" : fmt::format("{:.4g} lm", group.lumens), group.mean_lux,
+               100 * group.noise);
 }
 
 }  // namespace sconce::app

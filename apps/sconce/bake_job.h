@@ -10,12 +10,14 @@
 
 namespace sconce::app {
 
-/// Everything that decides a bake's result. As JSON it travels in the state file, so that shards can be merged.
+/// Everything that decides a bake's result. As JSON it travels in the state file, so that shards can be
+/// merged.
 struct BakeJob {
-  std::filesystem::path scene;     ///< absolute
+  std::filesystem::path scene;  ///< absolute
   std::string grouping = "auto";
   std::string solver = "path";
-  std::string encoding = "f16";    ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
+  std::string encoding =
+      "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
   AtlasParams atlas;
   BakeParams params;
 
@@ -24,7 +26,8 @@ struct BakeJob {
   static BakeJob from_json(const std::string& text, const std::string& where);
 };
 
-/// A job with its scene loaded, charts cut and lamps found; members refer to each other, so it stays where it is.
+/// A job with its scene loaded, charts cut and lamps found; members refer to each other, so it stays where it
+/// is.
 struct PreparedBake {
   BakeJob job;
   Scene scene;
@@ -40,7 +43,8 @@ struct PreparedBake {
   PreparedBake& operator=(const PreparedBake&) = delete;
 
   BakeHeader header() const;
-  /// Hash of the records and of how they are sampled and encoded: equal means a package need not be baked again.
+  /// Hash of the records and of how they are sampled and encoded: equal means a package need not be baked
+  /// again.
   std::string result_hash() const;
 };
 
@@ -50,8 +54,9 @@ void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Pro
 /// Fills gaps and writes the package. @throws Error: tiles missing, unwritable
 /// @param options  provenance for the manifest
 /// @return what was written
-Manifest write_result(const PreparedBake& bake, std::span<BakeState> states, const std::filesystem::path& output,
-                      const std::map<std::string, Provenance>& options, const Progress& progress);
+Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
+                      const std::filesystem::path& output, const std::map<std::string, Provenance>& options,
+                      const Progress& progress);
 
 /// "name: 5 groups, 13 lamps, ..." lines for a person, or JSON.
 void print_result(const Manifest& manifest, const std::filesystem::path& output, double seconds, bool json);

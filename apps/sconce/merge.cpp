@@ -8,7 +8,9 @@
 namespace sconce::app {
 
 int run_merge(int argc, const char* const* argv) {
-  Options options("merge", "Joins the shards of one bake (`bake --shard i/n`) into its package, bit for bit the whole bake.");
+  Options options(
+      "merge",
+      "Joins the shards of one bake (`bake --shard i/n`) into its package, bit for bit the whole bake.");
   std::vector<std::string> shards;
   std::string output;
   options.positionals("SHARD", &shards, "state files that `bake --shard` wrote", true);
@@ -26,7 +28,8 @@ int run_merge(int argc, const char* const* argv) {
     if (header.hash != first.hash) throw Error(shard, "belongs to another bake than " + shards.front());
     if (header.job != first.job) throw Error(shard, "was baked with other options than " + shards.front());
     if (header.isa != first.isa)
-      throw Error(shard, "was baked on another instruction set (" + header.isa + ") than " + shards.front(), first.isa);
+      throw Error(shard, "was baked on another instruction set (" + header.isa + ") than " + shards.front(),
+                  first.isa);
   }
   const PreparedBake bake(BakeJob::from_json(states.front().header().job, shards.front()), progress);
   if (bake.hash != states.front().header().hash)

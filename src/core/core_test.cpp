@@ -45,14 +45,19 @@ TEST(Text, FileNamesAreSafeAndApart) {
 }
 
 TEST(Errors, AreOneLineWithPlaceAndChoices) {
-  EXPECT_STREQ(Error("a.toml:3", "unknown key 'x'", "y, z").what(), "a.toml:3: unknown key 'x' (allowed: y, z)");
+  EXPECT_STREQ(Error("a.toml:3", "unknown key 'x'", "y, z").what(),
+               "a.toml:3: unknown key 'x' (allowed: y, z)");
 }
 
 TEST(Parallel, CallsEachIndexOnceAndRethrows) {
   std::vector<std::atomic<int>> calls(1000);
   parallel_for(calls.size(), 7, [&](std::size_t i) { ++calls[i]; });
   for (const auto& c : calls) EXPECT_EQ(c, 1);
-  EXPECT_THROW(parallel_for(10, 1, [](std::size_t i) { if (i == 3) throw Error("x", "y"); }), Error);
+  EXPECT_THROW(parallel_for(10, 1,
+                            [](std::size_t i) {
+                              if (i == 3) throw Error("x", "y");
+                            }),
+               Error);
 }
 
 TEST(Files, WritingReplacesWholeOrNotAtAll) {
@@ -63,7 +68,10 @@ TEST(Files, WritingReplacesWholeOrNotAtAll) {
   write_file(file, "one");
   write_file(file, "two");
   EXPECT_EQ(read_file(file), "two");
-  { const Beside abandoned(file); std::ofstream(abandoned.path()) << "half"; }
+  {
+    const Beside abandoned(file);
+    std::ofstream(abandoned.path()) << "half";
+  }
   EXPECT_EQ(read_file(file), "two");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   EXPECT_THROW(write_file(folder / "no" / "where.txt", "x"), Error);

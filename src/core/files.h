@@ -12,7 +12,8 @@ namespace sconce {
 /// Whole file as bytes. @throws Error naming the file
 std::string read_file(const std::filesystem::path& path);
 
-/// Writes beside the target, flushes and checks, renames. @throws Error naming the file; the target is then untouched
+/// Writes beside the target, flushes and checks, renames. @throws Error naming the file; the target is then
+/// untouched
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// A file or folder being written beside `target`. Removed on destruction unless commit() was called.

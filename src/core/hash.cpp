@@ -14,14 +14,18 @@ namespace sconce {
 ContentHash::ContentHash() : state_(XXH3_createState()) {
   XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
 }
-ContentHash::~ContentHash() { XXH3_freeState(static_cast<XXH3_state_t*>(state_)); }
+ContentHash::~ContentHash() {
+  XXH3_freeState(static_cast<XXH3_state_t*>(state_));
+}
 
 ContentHash& ContentHash::bytes(const void* data, std::size_t size) {
   XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), data, size);
   return *this;
 }
 
-ContentHash& ContentHash::text(std::string_view s) { return value(s.size()).bytes(s.data(), s.size()); }
+ContentHash& ContentHash::text(std::string_view s) {
+  return value(s.size()).bytes(s.data(), s.size());
+}
 
 std::string ContentHash::hex() const {
   const XXH128_hash_t h = XXH3_128bits_digest(static_cast<const XXH3_state_t*>(state_));

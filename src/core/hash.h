@@ -18,7 +18,9 @@ constexpr uint32_t mix32(uint32_t x) {
   x ^= x >> 16;
   return x;
 }
-constexpr uint32_t mix32(uint32_t a, uint32_t b) { return mix32(a ^ mix32(b + 0x9e3779b9u)); }
+constexpr uint32_t mix32(uint32_t a, uint32_t b) {
+  return mix32(a ^ mix32(b + 0x9e3779b9u));
+}
 
 /// Content hash: XXH3, 128 bits, as 32 hex digits. Append strings, numbers or bytes; order matters.
 class ContentHash {

@@ -16,7 +16,9 @@ ThreadLimit::ThreadLimit(int threads)
           threads > 0 ? static_cast<std::size_t>(threads)
                       : std::max<std::size_t>(1, std::thread::hardware_concurrency()))) {}
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+  delete static_cast<tbb::global_control*>(control_);
+}
 
 int ThreadLimit::current() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));

@@ -20,7 +20,8 @@ class ThreadLimit {
 };
 
 /// Calls f(i) for i in [0, n), in any order, on the machine's threads; rethrows the first exception.
-/// Results go into slots indexed by i and are folded in order afterwards, so any thread count gives the same bits.
+/// Results go into slots indexed by i and are folded in order afterwards, so any thread count gives the same
+/// bits.
 /// @param grain  indices handed out at a time
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t)>& f);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light is asked for. Texels, vertices, pixels, gather samples, plane points and probes are all receivers;
-// a solver sees nothing else.
+// Where light is asked for. Texels, vertices, pixels, gather samples, plane points and probes are all
+// receivers; a solver sees nothing else.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owen-scrambled Sobol points in padded pairs: every pair of dimensions is the (0,2)-sequence of the first two Sobol
-// dimensions, its index shuffled and its digits scrambled by a hash of (seed, receiver, pair).
+// Owen-scrambled Sobol points in padded pairs: every pair of dimensions is the (0,2)-sequence of the first
+// two Sobol dimensions, its index shuffled and its digits scrambled by a hash of (seed, receiver, pair).
 // Source: Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4).
 #pragma once
 
@@ -43,10 +43,13 @@ constexpr uint32_t sobol1_reversed(uint32_t i) {
 }
 
 /// 24 bits into [0, 1): never 1, exact in float.
-constexpr float to_unit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+constexpr float to_unit(uint32_t x) {
+  return static_cast<float>(x >> 8) * 0x1p-24f;
+}
 }  // namespace detail
 
-/// As sobol_pair, for a caller that asks for many pairs of one point: `reversed` = detail::reverse_bits(index).
+/// As sobol_pair, for a caller that asks for many pairs of one point: `reversed` =
+/// detail::reverse_bits(index).
 [[gnu::always_inline]] inline Vec2 sobol_pair_reversed(uint32_t reversed, uint32_t pair, uint32_t stream) {
   const uint32_t key = mix32(stream ^ (pair * 0x9e3779b9u));
   const uint32_t shuffled = detail::reverse_bits(detail::owen_reversed(reversed, key));

@@ -18,7 +18,8 @@ uint32_t sobol1(uint32_t i) {
 }
 
 TEST(Sobol, SecondDimensionIsPascalsTriangleModuloTwo) {
-  for (uint32_t i = 0; i < 100000; i += 7) EXPECT_EQ(detail::reverse_bits(detail::sobol1_reversed(i)), sobol1(i)) << i;
+  for (uint32_t i = 0; i < 100000; i += 7)
+    EXPECT_EQ(detail::reverse_bits(detail::sobol1_reversed(i)), sobol1(i)) << i;
   EXPECT_EQ(detail::reverse_bits(detail::sobol1_reversed(0xffffffffu)), sobol1(0xffffffffu));
 }
 
@@ -43,7 +44,8 @@ TEST(Sobol, PairsAndStreamsAreUncorrelated) {
   const int n = 4096;
   double covariance = 0;
   for (uint32_t i = 0; i < n; ++i)
-    covariance += (static_cast<double>(sobol_pair(i, 0, 9).x) - 0.5) * (static_cast<double>(sobol_pair(i, 1, 9).x) - 0.5);
+    covariance += (static_cast<double>(sobol_pair(i, 0, 9).x) - 0.5) *
+                  (static_cast<double>(sobol_pair(i, 1, 9).x) - 0.5);
   EXPECT_NEAR(covariance / n, 0, 0.006);
 }
 

@@ -15,7 +15,8 @@ std::optional<double> parse_number(std::string_view s);
 /// `*` and `?` globs.
 bool glob_match(std::string_view pattern, std::string_view name);
 
-/// "unknown group 'x'; did you mean 'y'?" material: the nearest of `names` within a third of its length, if any.
+/// "unknown group 'x'; did you mean 'y'?" material: the nearest of `names` within a third of its length, if
+/// any.
 std::optional<std::string> nearest_name(std::string_view wrong, std::span<const std::string> names);
 
 std::vector<std::string> split(std::string_view s, char separator);
@@ -23,7 +24,8 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 std::string trim(std::string_view s);
 std::string lower(std::string_view s);
 
-/// A name as a file name: letters, digits, `-` and `_` kept, others become `_` and a short hash keeps names apart.
+/// A name as a file name: letters, digits, `-` and `_` kept, others become `_` and a short hash keeps names
+/// apart.
 std::string safe_file_name(std::string_view name);
 
 }  // namespace sconce

@@ -21,7 +21,8 @@ inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
   return length > 1e-20f && std::isfinite(length) ? v / length : fallback;
 }
 
-/// Right-handed orthonormal frame whose third axis is n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+/// Right-handed orthonormal frame whose third axis is n (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited").
 struct Frame {
   Vec3 x, y, z;
 

@@ -3,7 +3,8 @@
 
 namespace sconce {
 
-AliasTable::AliasTable(std::span<const double> weights) : cells_(weights.size()), probabilities_(weights.size()) {
+AliasTable::AliasTable(std::span<const double> weights)
+    : cells_(weights.size()), probabilities_(weights.size()) {
   const std::size_t n = weights.size();
   double sum = 0;
   for (const double w : weights) sum += w;

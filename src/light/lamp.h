@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lamps: what rays and solvers see of the scene's lights. One file per kind; a new kind is one file and one row of the
-// variant (the compiler then lists what is missing).
+// Lamps: what rays and solvers see of the scene's lights. One file per kind; a new kind is one file and one
+// row of the variant (the compiler then lists what is missing).
 #pragma once
 
 #include <string>
@@ -15,19 +15,19 @@ namespace sconce {
 
 /// Light that arrives at a point from one lamp along one direction.
 struct LightSample {
-  Vec3 direction;        ///< from the point to the lamp, unit
-  float distance = 0;    ///< metres; kInfinite for sun and sky
-  Rgb radiance;          ///< cd/m2; for delta lamps the illuminance on a facing surface, lux
-  float pdf = 0;         ///< per steradian, of this direction given this lamp; 1 for delta lamps
-  bool delta = false;    ///< no direction picked at random ever meets this lamp
+  Vec3 direction;      ///< from the point to the lamp, unit
+  float distance = 0;  ///< metres; kInfinite for sun and sky
+  Rgb radiance;        ///< cd/m2; for delta lamps the illuminance on a facing surface, lux
+  float pdf = 0;       ///< per steradian, of this direction given this lamp; 1 for delta lamps
+  bool delta = false;  ///< no direction picked at random ever meets this lamp
 };
 inline constexpr float kInfinite = 1e30f;
 
 /// Point or spot: I / d2, windowed by KHR_lights_punctual's range and cone.
 struct PunctualLamp {
   Vec3 position, axis;
-  Rgb intensity;                      ///< cd
-  float range = 0;                    ///< m, 0 = infinite
+  Rgb intensity;                         ///< cd
+  float range = 0;                       ///< m, 0 = infinite
   float cos_inner = -1, cos_outer = -1;  ///< -1: a point light
 };
 /// Parallel light.
@@ -37,35 +37,37 @@ struct SunLamp {
 };
 /// Light from infinity: a constant, or a lat-long image sampled by luminance x solid angle.
 struct SkyLamp {
-  Rgb scale;                    ///< multiplies the image; the radiance where there is none, cd/m2
-  const Image* image = nullptr; ///< of the scene's SkyLight
+  Rgb scale;                     ///< multiplies the image; the radiance where there is none, cd/m2
+  const Image* image = nullptr;  ///< of the scene's SkyLight
   Mat3 to_local{1.0f};
-  AliasTable pixels;            ///< probability per pixel
+  AliasTable pixels;  ///< probability per pixel
 };
-/// The front side of an emissive mesh instance (both sides where double-sided). Its triangles are consecutive.
+/// The front side of an emissive mesh instance (both sides where double-sided). Its triangles are
+/// consecutive.
 struct MeshLamp {
-  struct Piece {         ///< part of a triangle, small enough that its emission is nearly uniform
+  struct Piece {  ///< part of a triangle, small enough that its emission is nearly uniform
     uint32_t triangle;
-    Vec2 b0, b1, b2;     ///< barycentric corners
-    Vec3 p0, e1, e2;     ///< corner and edges, world
+    Vec2 b0, b1, b2;  ///< barycentric corners
+    Vec3 p0, e1, e2;  ///< corner and edges, world
     Vec3 normal;
-    Rgb emission;        ///< cd/m2, where it does not vary over the lamp
-    float density;       ///< probability per m2 of a point of this piece
+    Rgb emission;   ///< cd/m2, where it does not vary over the lamp
+    float density;  ///< probability per m2 of a point of this piece
   };
   std::vector<Piece> pieces;
-  AliasTable table;      ///< probability per piece: area x relative emission, never the strength
+  AliasTable table;  ///< probability per piece: area x relative emission, never the strength
   uint32_t first_triangle = 0;
   std::vector<uint32_t> first_piece;  ///< per triangle
   std::vector<uint16_t> cut;          ///< per triangle: it is cut into cut x cut pieces
   Vec3 center{0};
-  float radius = 0;      ///< of the bounding sphere
-  Vec3 axis{0};          ///< the common normal of a flat lamp that shines to one side, else zero
-  float plane = 0;       ///< no part of a flat lamp lies below dot(axis, p) = plane
-  double area = 0;       ///< m2, one side
+  float radius = 0;  ///< of the bounding sphere
+  Vec3 axis{0};      ///< the common normal of a flat lamp that shines to one side, else zero
+  float plane = 0;   ///< no part of a flat lamp lies below dot(axis, p) = plane
+  double area = 0;   ///< m2, one side
   bool two_sided = false;
   bool uniform = false;  ///< no emission texture, no alpha mask
 
-  /// A point by the table; its radiance is the material's emission. Inline: this is the bake's most frequent call.
+  /// A point by the table; its radiance is the material's emission. Inline: this is the bake's most frequent
+  /// call.
   /// @param where  when given: piece and barycentric coordinates within it of the point
   bool sample(const Vec3& x, Vec2 u, LightSample& out, std::pair<const Piece*, Vec2>* where = nullptr) const {
     const Piece& piece = pieces[table.sample(u.x)];
@@ -78,7 +80,8 @@ struct MeshLamp {
       b1 -= b2;
     }
     const Vec3 to = piece.p0 + b1 * piece.e1 + b2 * piece.e2 - x;
-    const float d2 = glm::dot(to, to), facing = two_sided ? std::abs(glm::dot(to, piece.normal)) : -glm::dot(to, piece.normal);
+    const float d2 = glm::dot(to, to),
+                facing = two_sided ? std::abs(glm::dot(to, piece.normal)) : -glm::dot(to, piece.normal);
     if (!(d2 > 1e-14f) || !(facing > 0)) return false;
     const float d = std::sqrt(d2), cosine = facing / d;
     if (!(cosine > 1e-7f)) return false;
@@ -106,10 +109,10 @@ struct Lamp {
 struct LampBound {
   Vec3 center{0};
   float radius = 0;
-  Vec3 axis{0};          ///< of the plane or cone; for a sun the direction towards it
-  float plane = 0;       ///< nothing below dot(axis, x) = plane is lit; with axis 0 everything is
-  float cos_cone = -2;   ///< nothing outside this cone about the axis; -2 = no cone
-  float least2 = 0;      ///< squared distance below which importance no longer grows
+  Vec3 axis{0};         ///< of the plane or cone; for a sun the direction towards it
+  float plane = 0;      ///< nothing below dot(axis, x) = plane is lit; with axis 0 everything is
+  float cos_cone = -2;  ///< nothing outside this cone about the axis; -2 = no cone
+  float least2 = 0;     ///< squared distance below which importance no longer grows
   float range2 = 1e38f;
   enum class Kind : uint8_t { near, sun, everywhere } kind = Kind::near;
 };
@@ -122,7 +125,8 @@ class Lamps {
   const std::vector<Lamp>& all() const { return lamps_; }
   std::size_t size() const { return lamps_.size(); }
 
-  /// Light from lamp i at x for u in [0,1)^2, before visibility; nothing from behind a lamp or outside its cone.
+  /// Light from lamp i at x for u in [0,1)^2, before visibility; nothing from behind a lamp or outside its
+  /// cone.
   /// @return false where nothing arrives; `out` is then undefined
   [[gnu::always_inline]] bool sample(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const {
     const auto* mesh = std::get_if<MeshLamp>(&lamps_[i].shape);
@@ -133,8 +137,8 @@ class Lamps {
   int lamp_of(uint32_t triangle) const { return lamp_of_.empty() ? -1 : lamp_of_[triangle]; }
   /// Emission of a triangle towards a viewer on its front or back; black from behind unless two-sided. cd/m2
   Rgb emission(uint32_t triangle, Vec2 barycentric, bool back) const;
-  /// Density per steradian with which sample(lamp_of(triangle), x) picks the point that a ray of `distance` along
-  /// `direction` hits.
+  /// Density per steradian with which sample(lamp_of(triangle), x) picks the point that a ray of `distance`
+  /// along `direction` hits.
   float pdf(uint32_t triangle, Vec2 barycentric, float distance, const Vec3& direction) const;
 
   /// Sky lamps, and what a ray that leaves the scene sees of one.
@@ -142,8 +146,9 @@ class Lamps {
   Rgb sky_radiance(std::size_t i, const Vec3& direction) const;
   float sky_pdf(std::size_t i, const Vec3& direction) const;
 
-  /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric bound, never its
-  /// strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the cone). Dimensionless.
+  /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric
+  /// bound, never its strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the
+  /// cone). Dimensionless.
   [[gnu::always_inline]] float importance(std::size_t i, const Vec3& x, const Vec3& n) const {
     const LampBound& b = bounds_[i];
     if (b.kind != LampBound::Kind::near)
@@ -151,7 +156,8 @@ class Lamps {
     const Vec3 to = b.center - x;
     if (glm::dot(to, n) <= -b.radius || glm::dot(b.axis, x) < b.plane) return 0.0f;
     const float d2 = glm::dot(to, to);
-    if (d2 >= b.range2 || (b.cos_cone > -2 && -glm::dot(to, b.axis) <= b.cos_cone * std::sqrt(d2))) return 0.0f;
+    if (d2 >= b.range2 || (b.cos_cone > -2 && -glm::dot(to, b.axis) <= b.cos_cone * std::sqrt(d2)))
+      return 0.0f;
     return scene_radius2_ / std::max(d2, b.least2);
   }
 

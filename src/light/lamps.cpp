@@ -16,7 +16,9 @@ template <class... F>
 Overload(F...) -> Overload<F...>;
 
 Lamp make_lamp(const Light& light) {
-  return std::visit(Overload{[&](const PointLight& p) { return make_punctual(light, light.intensity, p.range, 0, 0, false); },
+  return std::visit(Overload{[&](const PointLight& p) {
+                               return make_punctual(light, light.intensity, p.range, 0, 0, false);
+                             },
                              [&](const SpotLight& s) {
                                return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
                              },
@@ -86,7 +88,8 @@ bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out)
 
 Rgb Lamps::emission(uint32_t triangle, Vec2 barycentric, bool back) const {
   const int lamp = lamp_of(triangle);
-  if (lamp < 0 || (back && !std::get<MeshLamp>(lamps_[static_cast<std::size_t>(lamp)].shape).two_sided)) return {};
+  if (lamp < 0 || (back && !std::get<MeshLamp>(lamps_[static_cast<std::size_t>(lamp)].shape).two_sided))
+    return {};
   return emission_at(*scene_, *world_, triangle, barycentric);
 }
 
@@ -123,7 +126,8 @@ std::vector<GroupFlux> group_flux(const Scene& scene, const Lamps& lamps) {
     if (!lamp.group.valid() || luminance(lamp.flux) <= 0) continue;
     GroupFlux& group = groups[lamp.group.value];
     const Rgb d = unit(lamp.flux) - group.color;
-    group.spread = std::max(group.spread, static_cast<double>(std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)})));
+    group.spread =
+        std::max(group.spread, static_cast<double>(std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)})));
   }
   for (GroupFlux& group : groups)
     if (group.spread < 1e-5) group.spread = 0;  // float rounding of equal lamps

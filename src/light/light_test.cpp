@@ -15,7 +15,10 @@ struct Rig {
   Scene scene;
   World world;
   Lamps lamps;
-  explicit Rig(Scene s) : scene((assign_groups(s, Grouping::automatic), std::move(s))), world(make_world(scene)), lamps(scene, world) {}
+  explicit Rig(Scene s)
+      : scene((assign_groups(s, Grouping::automatic), std::move(s))),
+        world(make_world(scene)),
+        lamps(scene, world) {}
 };
 
 Vec3 on_sphere(Vec2 u) {
@@ -25,7 +28,8 @@ Vec3 on_sphere(Vec2 u) {
 
 Scene with_floor() {
   Scene scene;
-  add_quad(scene, "floor", add_material(scene, "grey", Rgb(0.5f)), Vec3(-5, 0, -5), Vec3(0, 0, 10), Vec3(10, 0, 0));
+  add_quad(scene, "floor", add_material(scene, "grey", Rgb(0.5f)), Vec3(-5, 0, -5), Vec3(0, 0, 10),
+           Vec3(10, 0, 0));
   return scene;
 }
 
@@ -46,8 +50,10 @@ TEST(AliasTable, PicksInProportionAndNeverAZero) {
 // Phi = pi L A for one side.
 TEST(Lamps, FluxOfMeshes) {
   Scene scene = with_floor();
-  add_quad(scene, "panel", add_material(scene, "glow", Rgb(0), Rgb(10, 20, 40)), Vec3(0, 2, 0), Vec3(2, 0, 0), Vec3(0, 0, 0.5f));
-  add_quad(scene, "both", add_material(scene, "glow both", Rgb(0), Rgb(10), true), Vec3(0, 3, 0), Vec3(2, 0, 0), Vec3(0, 0, 0.5f));
+  add_quad(scene, "panel", add_material(scene, "glow", Rgb(0), Rgb(10, 20, 40)), Vec3(0, 2, 0), Vec3(2, 0, 0),
+           Vec3(0, 0, 0.5f));
+  add_quad(scene, "both", add_material(scene, "glow both", Rgb(0), Rgb(10), true), Vec3(0, 3, 0),
+           Vec3(2, 0, 0), Vec3(0, 0, 0.5f));
   const Rig rig(std::move(scene));
   ASSERT_EQ(rig.lamps.size(), 2u);
   EXPECT_NEAR(rig.lamps.all()[0].flux.b, kPiD * 40, 1e-3);
@@ -82,14 +88,15 @@ TEST(Lamps, FluxOfSpots) {
   }
 }
 
-// Directions that sample() picks have the density that pdf() states: the mean of 1/pdf over samples is the solid angle of
-// the lamp, known here, and pdf() of the point met again is the sample's own.
+// Directions that sample() picks have the density that pdf() states: the mean of 1/pdf over samples is the
+// solid angle of the lamp, known here, and pdf() of the point met again is the sample's own.
 TEST(Lamps, DensityOfATexturedMesh) {
   Scene scene = with_floor();
   Texture texture;
   texture.name = "stripes";
   texture.pixels = {64, 8, 3, {}};
-  for (int i = 0; i < 64 * 8; ++i) texture.pixels.data.insert(texture.pixels.data.end(), 3, i % 64 < 8 ? 255 : 10);
+  for (int i = 0; i < 64 * 8; ++i)
+    texture.pixels.data.insert(texture.pixels.data.end(), 3, i % 64 < 8 ? 255 : 10);
   scene.textures.push_back(texture);
   const auto glow = add_material(scene, "glow", Rgb(0), Rgb(10));
   scene.materials[glow.value].emission_texture.texture = Id<Texture>(0);
@@ -114,7 +121,8 @@ TEST(Lamps, DensityOfATexturedMesh) {
     const float s = 0.5f * (p.x + 1), t = 0.5f * (p.z + 1);
     const bool first = s >= t;
     const Vec2 b = first ? Vec2(s - t, t) : Vec2(s, t - s);
-    const float again = rig.lamps.pdf(mesh.first_triangle + (first ? 0 : 1), b, sample.distance, sample.direction);
+    const float again =
+        rig.lamps.pdf(mesh.first_triangle + (first ? 0 : 1), b, sample.distance, sample.direction);
     same += std::abs(again / sample.pdf - 1) < 1e-3f;
   }
   EXPECT_NEAR(solid_angle, expected, 0.02 * expected);
@@ -149,12 +157,14 @@ TEST(Lamps, DensityOfALatLongSky) {
   EXPECT_NEAR(total, 1, 0.01);
   EXPECT_GT(same / n, 0.99) << "only directions on a pixel's border may fall to either side";
   EXPECT_NEAR(sampled / direct, 1, 0.02);
-  EXPECT_NEAR(static_cast<double>(rig.lamps.all()[0].flux.g), sampled / 4, 0.02 * sampled / 4) << "pi x mean radiance";
+  EXPECT_NEAR(static_cast<double>(rig.lamps.all()[0].flux.g), sampled / 4, 0.02 * sampled / 4)
+      << "pi x mean radiance";
 }
 
 TEST(Lamps, ImportanceIsNeverZeroWhereLightArrivesAndKnowsNoStrength) {
   Scene scene = with_floor();
-  add_quad(scene, "a panel", add_material(scene, "glow", Rgb(0), Rgb(10)), Vec3(-1, 2, -1), Vec3(2, 0, 0), Vec3(0, 0, 1.5f));
+  add_quad(scene, "a panel", add_material(scene, "glow", Rgb(0), Rgb(10)), Vec3(-1, 2, -1), Vec3(2, 0, 0),
+           Vec3(0, 0, 1.5f));
   add_sphere(scene, "b globe", add_material(scene, "globe", Rgb(0), Rgb(5)), Vec3(2, 1, 0), 0.3f, 8, false);
   Scene strong = scene;
   for (Material& m : strong.materials) m.emission *= 1000;
@@ -166,7 +176,8 @@ TEST(Lamps, ImportanceIsNeverZeroWhereLightArrivesAndKnowsNoStrength) {
       const float importance = rig.lamps.importance(lamp, x, n);
       EXPECT_EQ(importance, louder.lamps.importance(lamp, x, n));
       LightSample sample;
-      const bool arrives = rig.lamps.sample(lamp, x, sobol_pair(i, 3, 1), sample) && glm::dot(sample.direction, n) > 1e-3f;
+      const bool arrives =
+          rig.lamps.sample(lamp, x, sobol_pair(i, 3, 1), sample) && glm::dot(sample.direction, n) > 1e-3f;
       EXPECT_TRUE(!arrives || importance > 0);
     }
   }
@@ -174,8 +185,10 @@ TEST(Lamps, ImportanceIsNeverZeroWhereLightArrivesAndKnowsNoStrength) {
 
 TEST(Lamps, ColourOfAGroup) {
   Scene scene = with_floor();
-  const auto red = add_quad(scene, "red", add_material(scene, "red", Rgb(0), Rgb(10, 0, 0)), Vec3(0, 2, 0), Vec3(1, 0, 0), Vec3(0, 0, 1));
-  const auto blue = add_quad(scene, "blue", add_material(scene, "blue", Rgb(0), Rgb(0, 0, 10)), Vec3(2, 2, 0), Vec3(1, 0, 0), Vec3(0, 0, 1));
+  const auto red = add_quad(scene, "red", add_material(scene, "red", Rgb(0), Rgb(10, 0, 0)), Vec3(0, 2, 0),
+                            Vec3(1, 0, 0), Vec3(0, 0, 1));
+  const auto blue = add_quad(scene, "blue", add_material(scene, "blue", Rgb(0), Rgb(0, 0, 10)), Vec3(2, 2, 0),
+                             Vec3(1, 0, 0), Vec3(0, 0, 1));
   scene.instances[red.value].group_name = scene.instances[blue.value].group_name = "both";
   const Rig rig(std::move(scene));
   const auto groups = group_flux(rig.scene, rig.lamps);

@@ -5,9 +5,9 @@ namespace sconce {
 
 namespace {
 
-constexpr int kMaxCut = 64;           // pieces per edge of a textured emissive triangle, at most
+constexpr int kMaxCut = 64;  // pieces per edge of a textured emissive triangle, at most
 constexpr std::size_t kMaxPieces = 1 << 20;
-constexpr double kFloor = 0.1;        // share of the picking density that ignores the texture
+constexpr double kFloor = 0.1;  // share of the picking density that ignores the texture
 
 /// Texels of the emission texture along the longest edge of the triangle.
 double texels_along(const Scene& scene, const World& world, const Material& material, uint32_t t) {
@@ -37,7 +37,8 @@ Rgb emission_at(const Scene& scene, const World& world, uint32_t triangle, Vec2 
   return material.alpha_mode == Material::Alpha::mask && s.alpha < material.alpha_cutoff ? Rgb() : s.emission;
 }
 
-Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instance, uint32_t first, uint32_t count) {
+Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instance, uint32_t first,
+                    uint32_t count) {
   const Instance& node = scene[instance];
   const Material& material = scene[world.materials[first]];
   MeshLamp lamp;
@@ -84,7 +85,8 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
           piece.emission = material.emission;
           Rgb mean;
           for (const Vec2 w : {Vec2(1 / 3.0f), Vec2(0.6f, 0.2f), Vec2(0.2f, 0.6f), Vec2(0.2f)})
-            mean += 0.25f * emission_at(scene, world, t, piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
+            mean += 0.25f * emission_at(scene, world, t,
+                                        piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
           lamp.pieces.push_back(piece);
           areas.push_back(area);
           relative.push_back(static_cast<double>(luminance(mean) / strength));
@@ -105,7 +107,8 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
     total += weights[p];
   }
   lamp.table = AliasTable(weights);
-  for (std::size_t p = 0; p < areas.size(); ++p) lamp.pieces[p].density = static_cast<float>(weights[p] / total / areas[p]);
+  for (std::size_t p = 0; p < areas.size(); ++p)
+    lamp.pieces[p].density = static_cast<float>(weights[p] / total / areas[p]);
 
   lamp.center = bounds.center();
   lamp.radius = 0.5f * bounds.diagonal();
@@ -125,7 +128,8 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
           Rgb(static_cast<float>(flux[0]), static_cast<float>(flux[1]), static_cast<float>(flux[2])), false};
 }
 
-bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u, LightSample& out) {
+bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u,
+            LightSample& out) {
   std::pair<const MeshLamp::Piece*, Vec2> where;
   if (!lamp.sample(x, u, out, &where)) return false;
   const auto& [piece, b] = where;

@@ -5,10 +5,14 @@ namespace sconce {
 
 namespace {
 
-Vec3 forward(const Mat4& frame) { return normalize_or(-Vec3(frame[2]), Vec3(0, 0, -1)); }
+Vec3 forward(const Mat4& frame) {
+  return normalize_or(-Vec3(frame[2]), Vec3(0, 0, -1));
+}
 
 // KHR_lights_punctual: the cone's edge is the square of a ramp that is linear in the cosine.
-float ramp_width(const PunctualLamp& lamp) { return std::max(0.001f, lamp.cos_inner - lamp.cos_outer); }
+float ramp_width(const PunctualLamp& lamp) {
+  return std::max(0.001f, lamp.cos_inner - lamp.cos_outer);
+}
 
 float cone(const PunctualLamp& lamp, float cosine) {
   if (lamp.cos_outer <= -1) return 1.0f;
@@ -18,7 +22,8 @@ float cone(const PunctualLamp& lamp, float cosine) {
 
 }  // namespace
 
-Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float inner, float outer, bool spot) {
+Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float inner, float outer,
+                   bool spot) {
   PunctualLamp lamp;
   lamp.position = Vec3(light.frame[3]);
   lamp.axis = forward(light.frame);
@@ -30,7 +35,8 @@ Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float 
     lamp.cos_outer = std::cos(outer);
     const float width = ramp_width(lamp);
     // Integral of the squared ramp over the sphere: full inside, one third over the edge.
-    solid_angle = 2 * kPi * (std::max(0.0f, 1 - lamp.cos_outer - width) + std::min(width, 1 - lamp.cos_outer) / 3);
+    solid_angle =
+        2 * kPi * (std::max(0.0f, 1 - lamp.cos_outer - width) + std::min(width, 1 - lamp.cos_outer) / 3);
   }
   return {light.name, light.group, lamp, intensity * solid_angle, false};
 }

@@ -6,7 +6,8 @@
 
 namespace sconce {
 
-Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float inner, float outer, bool spot);
+Lamp make_punctual(const Light& light, const Rgb& intensity, float range, float inner, float outer,
+                   bool spot);
 Lamp make_sun(const Light& light);
 
 bool sample(const PunctualLamp& lamp, const Vec3& x, LightSample& out);

@@ -5,8 +5,11 @@ namespace sconce {
 
 namespace {
 
-// Pixels are constant patches of the sphere: bands of equal polar angle, so a pixel's solid angle is known exactly.
-double band_top(const Image& image, int y) { return std::cos(static_cast<double>(kPi) * y / image.height); }
+// Pixels are constant patches of the sphere: bands of equal polar angle, so a pixel's solid angle is known
+// exactly.
+double band_top(const Image& image, int y) {
+  return std::cos(static_cast<double>(kPi) * y / image.height);
+}
 
 double pixel_solid_angle(const Image& image, int y) {
   return 2.0 * static_cast<double>(kPi) / image.width * (band_top(image, y) - band_top(image, y + 1));
@@ -51,12 +54,14 @@ Lamp make_sky(const Light& light, const SkyLight& sky) {
     // A little everywhere, so that no colour with zero luminance weight is ever missed.
     for (int y = 0; y < sky.image.height; ++y)
       for (int x = 0; x < sky.image.width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(sky.image.width) + static_cast<std::size_t>(x);
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(sky.image.width) +
+                              static_cast<std::size_t>(x);
         weights[i] += 0.02 * total * pixel_solid_angle(sky.image, y) / (4.0 * static_cast<double>(kPi));
       }
     lamp.pixels = AliasTable(weights);
     const double sphere = 4.0 * static_cast<double>(kPi);
-    mean = Rgb(static_cast<float>(sum[0] / sphere), static_cast<float>(sum[1] / sphere), static_cast<float>(sum[2] / sphere));
+    mean = Rgb(static_cast<float>(sum[0] / sphere), static_cast<float>(sum[1] / sphere),
+               static_cast<float>(sum[2] / sphere));
   }
   const Rgb flux = light.intensity * mean * kPi;
   return {light.name, light.group, std::move(lamp), flux, true};
@@ -70,13 +75,16 @@ bool sample(const SkyLamp& lamp, Vec2 u, LightSample& out) {
   }
   const std::size_t i = lamp.pixels.sample(u.x);
   const int width = lamp.image->width;
-  const int x = static_cast<int>(i % static_cast<std::size_t>(width)), y = static_cast<int>(i / static_cast<std::size_t>(width));
-  const float top = static_cast<float>(band_top(*lamp.image, y)), bottom = static_cast<float>(band_top(*lamp.image, y + 1));
+  const int x = static_cast<int>(i % static_cast<std::size_t>(width)),
+            y = static_cast<int>(i / static_cast<std::size_t>(width));
+  const float top = static_cast<float>(band_top(*lamp.image, y)),
+              bottom = static_cast<float>(band_top(*lamp.image, y + 1));
   const float height = top + (bottom - top) * u.y, r = std::sqrt(std::max(0.0f, 1 - height * height));
   const float phi = ((static_cast<float>(x) + u.x) / static_cast<float>(width) - 0.5f) * 2 * kPi;
   const Vec3 local(r * std::sin(phi), height, -r * std::cos(phi));
   const float density = static_cast<float>(lamp.pixels.probability(i) / pixel_solid_angle(*lamp.image, y));
-  out = {glm::transpose(lamp.to_local) * local, kInfinite, lamp.scale * lamp.image->rgb_at(x, y), density, false};
+  out = {glm::transpose(lamp.to_local) * local, kInfinite, lamp.scale * lamp.image->rgb_at(x, y), density,
+         false};
   return true;
 }
 
@@ -89,7 +97,8 @@ Rgb radiance(const SkyLamp& lamp, const Vec3& direction) {
 float pdf(const SkyLamp& lamp, const Vec3& direction) {
   if (lamp.image == nullptr) return 1 / (4 * kPi);
   const Pixel p = pixel_of(lamp, direction);
-  const std::size_t i = static_cast<std::size_t>(p.y) * static_cast<std::size_t>(lamp.image->width) + static_cast<std::size_t>(p.x);
+  const std::size_t i = static_cast<std::size_t>(p.y) * static_cast<std::size_t>(lamp.image->width) +
+                        static_cast<std::size_t>(p.x);
   return static_cast<float>(lamp.pixels.probability(i) / pixel_solid_angle(*lamp.image, p.y));
 }
 

@@ -9,7 +9,8 @@ namespace sconce {
 
 /// How lights become faders (architecture.md, "Groups").
 enum class Grouping {
-  automatic,  ///< named groups as named; every other light or emissive mesh by its name without trailing digits
+  automatic,  ///< named groups as named; every other light or emissive mesh by its name without trailing
+              ///< digits
   named,      ///< named groups as named; what has no name goes to `rest`
   per_light,  ///< every light and every emissive instance is its own group
   one         ///< all in one group called `all-lights`

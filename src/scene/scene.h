@@ -18,11 +18,12 @@ namespace sconce {
 
 struct Texture {
   std::string name;
-  Image8 pixels;                         ///< as stored (sRGB or data), RGBA or RGB
-  std::vector<unsigned char> file;       ///< the encoded file, kept so that it can be written out unchanged; may be empty
-  std::string mime;                      ///< "image/png" or "image/jpeg"; empty when `file` is
+  Image8 pixels;  ///< as stored (sRGB or data), RGBA or RGB
+  std::vector<unsigned char>
+      file;          ///< the encoded file, kept so that it can be written out unchanged; may be empty
+  std::string mime;  ///< "image/png" or "image/jpeg"; empty when `file` is
   enum class Wrap : uint8_t { repeat, mirror, clamp } wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  bool nearest = false;                  ///< magnification filter
+  bool nearest = false;  ///< magnification filter
 };
 
 /// A texture in a material's slot: uv' = offset + rotate(rotation) * (scale * uv), KHR_texture_transform.
@@ -30,7 +31,7 @@ struct TextureUse {
   Id<Texture> texture;
   uint32_t texcoord = 0;  ///< which texture-coordinate set of the mesh
   Vec2 offset{0}, scale{1};
-  float rotation = 0;     ///< radians, counter-clockwise
+  float rotation = 0;  ///< radians, counter-clockwise
 
   Vec2 transform(Vec2 uv) const;
 };
@@ -71,7 +72,7 @@ struct LightGroup {
 
 /// A mesh placed in the world.
 struct Instance {
-  std::string name;          ///< the node's
+  std::string name;  ///< the node's
   Id<Mesh> mesh;
   Mat4 transform{1.0f};      ///< to world
   std::string group_name;    ///< group asked for by the file ("" = none); see scene/groups.h
@@ -88,7 +89,8 @@ struct SpotLight {
   float range = 0;
 };
 struct SunLight {};
-/// Light from infinity all around: constant, or a lat-long image (row 0 = up, centre column = -z, contract: docs/formats).
+/// Light from infinity all around: constant, or a lat-long image (row 0 = up, centre column = -z, contract:
+/// docs/formats).
 struct SkyLight {
   Image image;  ///< RGB; empty = constant 1
 };
@@ -122,7 +124,9 @@ struct Scene {
   std::vector<Camera> cameras;
 
   template <class T>
-  static const T& get(const std::vector<T>& v, Id<T> id) { return v.at(id.value); }
+  static const T& get(const std::vector<T>& v, Id<T> id) {
+    return v.at(id.value);
+  }
   const Texture& operator[](Id<Texture> id) const { return get(textures, id); }
   const Material& operator[](Id<Material> id) const { return get(materials, id); }
   const Mesh& operator[](Id<Mesh> id) const { return get(meshes, id); }

@@ -43,8 +43,10 @@ int wrap(int i, int size, Texture::Wrap mode) {
 Texel fetch(const Texture& texture, int x, int y, bool srgb) {
   const Image8& image = texture.pixels;
   const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::size_t at = (static_cast<std::size_t>(wrap(y, image.height, texture.wrap_v)) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(wrap(x, image.width, texture.wrap_u))) * channels;
+  const std::size_t at = (static_cast<std::size_t>(wrap(y, image.height, texture.wrap_v)) *
+                              static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(wrap(x, image.width, texture.wrap_u))) *
+                         channels;
   const unsigned char* p = &image.data[at];
   const auto& lut = srgb ? tables().srgb : tables().linear;
   if (channels < 3) return {Rgb(lut[p[0]]), channels == 2 ? tables().linear[p[1]] : 1.0f};
@@ -56,7 +58,8 @@ Texel fetch(const Texture& texture, int x, int y, bool srgb) {
 Vec2 TextureUse::transform(Vec2 uv) const {
   const Vec2 s = scale * uv;
   if (rotation == 0.0f) return offset + s;
-  // KHR_texture_transform: a positive angle turns the coordinates, hence the image, counter-clockwise with v down.
+  // KHR_texture_transform: a positive angle turns the coordinates, hence the image, counter-clockwise with v
+  // down.
   const float c = std::cos(rotation), n = std::sin(rotation);
   return offset + Vec2(c * s.x + n * s.y, -n * s.x + c * s.y);
 }
@@ -74,7 +77,8 @@ Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool sr
   };
   const float x = fold(st.x, texture.wrap_u) * static_cast<float>(texture.pixels.width);
   const float y = fold(st.y, texture.wrap_v) * static_cast<float>(texture.pixels.height);
-  if (texture.nearest) return fetch(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), srgb);
+  if (texture.nearest)
+    return fetch(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), srgb);
   const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
   const float wx = x - 0.5f - fx, wy = y - 0.5f - fy;
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);

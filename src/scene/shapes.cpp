@@ -28,7 +28,8 @@ void quad(Mesh& mesh, const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-Id<Material> add_material(Scene& scene, const std::string& name, const Rgb& base_color, const Rgb& emission, bool double_sided) {
+Id<Material> add_material(Scene& scene, const std::string& name, const Rgb& base_color, const Rgb& emission,
+                          bool double_sided) {
   Material material;
   material.name = name;
   material.base_color = base_color;
@@ -38,18 +39,22 @@ Id<Material> add_material(Scene& scene, const std::string& name, const Rgb& base
   return Id<Material>(scene.materials.size() - 1);
 }
 
-Id<Instance> add_quad(Scene& scene, const std::string& name, Id<Material> material, const Vec3& p, const Vec3& a, const Vec3& b) {
+Id<Instance> add_quad(Scene& scene, const std::string& name, Id<Material> material, const Vec3& p,
+                      const Vec3& a, const Vec3& b) {
   Mesh mesh;
   mesh.material = material;
   quad(mesh, p, a, b);
   return place(scene, name, std::move(mesh));
 }
 
-Id<Instance> add_box(Scene& scene, const std::string& name, Id<Material> material, const Vec3& lo, const Vec3& hi, bool inward) {
+Id<Instance> add_box(Scene& scene, const std::string& name, Id<Material> material, const Vec3& lo,
+                     const Vec3& hi, bool inward) {
   Mesh mesh;
   mesh.material = material;
   const Vec3 d = hi - lo, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-  const auto wall = [&](const Vec3& p, const Vec3& a, const Vec3& b) { inward ? quad(mesh, p, b, a) : quad(mesh, p, a, b); };
+  const auto wall = [&](const Vec3& p, const Vec3& a, const Vec3& b) {
+    inward ? quad(mesh, p, b, a) : quad(mesh, p, a, b);
+  };
   wall(lo, y, x);      // z = lo, outward -z
   wall(lo + z, x, y);  // z = hi
   wall(lo, z, y);      // x = lo
@@ -59,8 +64,8 @@ Id<Instance> add_box(Scene& scene, const std::string& name, Id<Material> materia
   return place(scene, name, std::move(mesh));
 }
 
-Id<Instance> add_sphere(Scene& scene, const std::string& name, Id<Material> material, const Vec3& center, float radius, int n,
-                        bool inward) {
+Id<Instance> add_sphere(Scene& scene, const std::string& name, Id<Material> material, const Vec3& center,
+                        float radius, int n, bool inward) {
   Mesh mesh;
   mesh.material = material;
   const int columns = 2 * n;
@@ -84,8 +89,8 @@ Id<Instance> add_sphere(Scene& scene, const std::string& name, Id<Material> mate
   return place(scene, name, std::move(mesh));
 }
 
-Id<Instance> add_disk(Scene& scene, const std::string& name, Id<Material> material, const Vec3& center, const Vec3& normal,
-                      float radius, int n) {
+Id<Instance> add_disk(Scene& scene, const std::string& name, Id<Material> material, const Vec3& center,
+                      const Vec3& normal, float radius, int n) {
   Mesh mesh;
   mesh.material = material;
   const Frame frame(normal);

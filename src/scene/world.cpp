@@ -9,7 +9,9 @@ namespace sconce {
 
 namespace {
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 }  // namespace
 
@@ -40,11 +42,13 @@ World make_world(const Scene& scene) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       auto [a, b, c] = mesh.triangles[t].v;
       if (mirrored) std::swap(b, c);
-      const Vec3 &p0 = world.positions[base + a], &p1 = world.positions[base + b], &p2 = world.positions[base + c];
+      const Vec3 &p0 = world.positions[base + a], &p1 = world.positions[base + b],
+                 &p2 = world.positions[base + c];
       if (!finite(p0) || !finite(p1) || !finite(p2)) continue;
       const Vec3 cross = glm::cross(p1 - p0, p2 - p0);
       const float twice_area = glm::length(cross);
-      const float longest = std::max({glm::dot(p1 - p0, p1 - p0), glm::dot(p2 - p1, p2 - p1), glm::dot(p0 - p2, p0 - p2)});
+      const float longest =
+          std::max({glm::dot(p1 - p0, p1 - p0), glm::dot(p2 - p1, p2 - p1), glm::dot(p0 - p2, p0 - p2)});
       if (!(twice_area > 1e-7f * longest) || !(twice_area > 1e-14f)) continue;
       world.triangles.push_back({{base + a, base + b, base + c}});
       world.face_normals.push_back(cross / twice_area);

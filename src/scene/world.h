@@ -10,13 +10,14 @@ namespace sconce {
 
 struct World {
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;                 ///< per vertex, unit; zero = use the face normal
-  std::vector<std::vector<Vec2>> texcoords;  ///< set -> vertex; as many sets as any mesh has, zero where it has none
-  std::vector<Triangle> triangles;           ///< wound counter-clockwise from the front, mirrored instances too
-  std::vector<Vec3> face_normals;            ///< per triangle, unit
-  std::vector<Id<Instance>> instances;       ///< per triangle
-  std::vector<Id<Material>> materials;       ///< per triangle
-  std::vector<uint32_t> source_triangles;    ///< per triangle: its index in its mesh
+  std::vector<Vec3> normals;  ///< per vertex, unit; zero = use the face normal
+  std::vector<std::vector<Vec2>>
+      texcoords;                    ///< set -> vertex; as many sets as any mesh has, zero where it has none
+  std::vector<Triangle> triangles;  ///< wound counter-clockwise from the front, mirrored instances too
+  std::vector<Vec3> face_normals;   ///< per triangle, unit
+  std::vector<Id<Instance>> instances;     ///< per triangle
+  std::vector<Id<Material>> materials;     ///< per triangle
+  std::vector<uint32_t> source_triangles;  ///< per triangle: its index in its mesh
   Bounds bounds;
 
   std::size_t size() const { return triangles.size(); }
@@ -31,14 +32,16 @@ struct World {
 /// Degenerate (zero-area, non-finite) triangles are left out. @throws Error when nothing is left
 World make_world(const Scene& scene);
 
-/// Linear texture look-up with the slot's transform and the texture's wrapping, bilinear; sRGB decoded when asked.
+/// Linear texture look-up with the slot's transform and the texture's wrapping, bilinear; sRGB decoded when
+/// asked.
 struct Texel {
   Rgb rgb{1.0f};
   float alpha = 1;
 };
 Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool srgb);
 
-/// Material at a point. Base colour after texture; metals keep it as diffuse reflectance in bounces (contract.md).
+/// Material at a point. Base colour after texture; metals keep it as diffuse reflectance in bounces
+/// (contract.md).
 struct Shade {
   Rgb base_color, emission;
   float alpha = 1, metallic = 0;

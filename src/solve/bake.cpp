@@ -10,7 +10,8 @@
 namespace sconce {
 
 std::string made_with(const BakeParams& params) {
-  return fmt::format("samples={} noise={:a}", (params.samples + kBatches - 1) / kBatches * kBatches, params.noise);
+  return fmt::format("samples={} noise={:a}", (params.samples + kBatches - 1) / kBatches * kBatches,
+                     params.noise);
 }
 
 void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers, Shard shard,
@@ -50,11 +51,13 @@ std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakePa
   return missing;
 }
 
-Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas, const TexelReceivers& receivers,
-                     std::span<const float> areas) {
+Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas,
+                     const TexelReceivers& receivers, std::span<const float> areas) {
   Layer layer;
-  const std::size_t page_texels = static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
-  std::vector<std::vector<uint8_t>> valid(static_cast<std::size_t>(atlas.pages), std::vector<uint8_t>(page_texels, 0));
+  const std::size_t page_texels =
+      static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
+  std::vector<std::vector<uint8_t>> valid(static_cast<std::size_t>(atlas.pages),
+                                          std::vector<uint8_t>(page_texels, 0));
   for (int p = 0; p < atlas.pages; ++p) {
     layer.pages.push_back(Image::rgb(atlas.width, atlas.height));
     layer.noise.push_back(Image(atlas.width, atlas.height, {"noise"}));
@@ -67,7 +70,8 @@ Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& a
     const std::vector<GroupValue> values = source->read(tile, group);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t receiver = tile * TexelReceivers::kTile + i;
-      const std::size_t page = receivers.texel(receiver) / page_texels, at = receivers.texel(receiver) % page_texels;
+      const std::size_t page = receivers.texel(receiver) / page_texels,
+                        at = receivers.texel(receiver) % page_texels;
       const Rgb& e = values[i].illuminance;
       float* pixel = &layer.pages[page].data[3 * at];
       pixel[0] = e.r, pixel[1] = e.g, pixel[2] = e.b;
@@ -82,9 +86,8 @@ Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& a
   }
   layer.mean_lux = area_sum > 0 ? lux_sum / area_sum : 0;
   layer.relative_noise = layer.mean_lux > 0 ? std::sqrt(squares / area_sum) / layer.mean_lux : 0;
-  parallel_for(static_cast<std::size_t>(atlas.pages), 1, [&](std::size_t p) {
-    fill_gaps(atlas, static_cast<int>(p), valid[p], layer.pages[p]);
-  });
+  parallel_for(static_cast<std::size_t>(atlas.pages), 1,
+               [&](std::size_t p) { fill_gaps(atlas, static_cast<int>(p), valid[p], layer.pages[p]); });
   return layer;
 }
 

@@ -12,8 +12,9 @@ struct Shard {
   uint32_t index = 0, count = 1;
 };
 
-/// Solves all tiles of the shard that `state` does not hold yet. Returns when done; what is finished is on disk even when
-/// this throws. Same bits at any thread count and for any sharding: a receiver's value depends on the receiver alone.
+/// Solves all tiles of the shard that `state` does not hold yet. Returns when done; what is finished is on
+/// disk even when this throws. Same bits at any thread count and for any sharding: a receiver's value depends
+/// on the receiver alone.
 /// @throws Cancelled, Error (disk full)
 void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers, Shard shard,
                 BakeState& state, const Progress& progress);
@@ -27,8 +28,8 @@ struct Layer {
 };
 /// @param states  their union must hold every tile
 /// @param areas   per receiver, m2
-Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas, const TexelReceivers& receivers,
-                     std::span<const float> areas);
+Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas,
+                     const TexelReceivers& receivers, std::span<const float> areas);
 
 /// Tiles that none of the states holds with these params.
 std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakeParams& params);

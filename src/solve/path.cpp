@@ -12,7 +12,8 @@ class PathSolver final : public Solver {
   PathSolver(const SolveContext& context, const BakeParams& params) : context_(context), params_(params) {}
 
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
-    PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps, params_.bounces);
+    PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
+                              params_.bounces);
     solve_receiver(kernel, receiver, params_, out);
   }
 
@@ -23,7 +24,8 @@ class PathSolver final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_path_solver(const SolveContext& context, const BakeParams& params, const Progress&) {
+std::unique_ptr<Solver> make_path_solver(const SolveContext& context, const BakeParams& params,
+                                         const Progress&) {
   return std::make_unique<PathSolver>(context, params);
 }
 

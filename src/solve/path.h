@@ -5,6 +5,7 @@
 
 namespace sconce {
 
-std::unique_ptr<Solver> make_path_solver(const SolveContext& context, const BakeParams& params, const Progress& progress);
+std::unique_ptr<Solver> make_path_solver(const SolveContext& context, const BakeParams& params,
+                                         const Progress& progress);
 
 }  // namespace sconce

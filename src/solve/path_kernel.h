@@ -26,17 +26,24 @@ inline Vec3 cosine_direction(Vec2 u) {
   return {x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y))};
 }
 
-/// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met by the
-/// path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
+/// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met
+/// by the path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
 /// @tparam Rays  has closest(Ray) and occluded(Ray)
 template <class Rays>
 class PathKernel {
  public:
   PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces)
-      : scene_(scene), world_(world), rays_(rays), lamps_(lamps), picker_(lamps), bounces_(bounces),
-        budget_(shadow_ray_budget(lamps.size())), slots_(static_cast<uint32_t>(lamps.size()) + 2) {
+      : scene_(scene),
+        world_(world),
+        rays_(rays),
+        lamps_(lamps),
+        picker_(lamps),
+        bounces_(bounces),
+        budget_(shadow_ray_budget(lamps.size())),
+        slots_(static_cast<uint32_t>(lamps.size()) + 2) {
     for (const Lamp& lamp : lamps.all())
-      area_lights_ |= std::holds_alternative<MeshLamp>(lamp.shape) || std::holds_alternative<SkyLamp>(lamp.shape);
+      area_lights_ |=
+          std::holds_alternative<MeshLamp>(lamp.shape) || std::holds_alternative<SkyLamp>(lamp.shape);
   }
 
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
@@ -45,7 +52,9 @@ class PathKernel {
     SurfacePoint at = receiver.sample(sobol_pair_reversed(reversed, kFootprintPair, stream));
     Rgb throughput{1.0f};
     for (uint32_t depth = 0;; ++depth) {
-      const auto pair = [&](uint32_t slot) { return sobol_pair_reversed(reversed, depth * slots_ + slot, stream); };
+      const auto pair = [&](uint32_t slot) {
+        return sobol_pair_reversed(reversed, depth * slots_ + slot, stream);
+      };
       const Vec2 choice = pair(1);
       picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
@@ -62,7 +71,8 @@ class PathKernel {
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
           const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
-          add(sums, sky, throughput * lamps_.sky_radiance(sky, direction) * (cosine / (other + cosine * kInvPi)));
+          add(sums, sky,
+              throughput * lamps_.sky_radiance(sky, direction) * (cosine / (other + cosine * kInvPi)));
         }
         return;
       }
@@ -72,7 +82,8 @@ class PathKernel {
         if (!emission.is_black()) {
           const float other = picker_.expected(static_cast<std::size_t>(lamp)) *
                               lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction);
-          add(sums, static_cast<uint32_t>(lamp), throughput * emission * (cosine / (other + cosine * kInvPi)));
+          add(sums, static_cast<uint32_t>(lamp),
+              throughput * emission * (cosine / (other + cosine * kInvPi)));
         }
       }
       if (last) return;
@@ -106,7 +117,8 @@ class PathKernel {
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
     const Vec3 origin = offset_origin(at.position, at.geometric_normal, light.direction);
     // The lamp's own surface must not count as an occluder.
-    const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
+    const float end =
+        light.delta ? light.distance : light.distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
     if (end > 0 && rays_.occluded({origin, light.direction, end})) return;
     const float density = light.delta ? expected : expected * light.pdf + cosine * kInvPi;
     add(sums, lamp, throughput * light.radiance * (cosine / density));
@@ -139,7 +151,9 @@ void solve_receiver(PathKernel<Rays>& kernel, const Footprint& receiver, const B
   const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));
   std::vector<double> sums(kBatches * 3 * groups, 0.0);
   std::vector<double> luma(kBatches * (groups + 1));
-  const auto batch = [&](int b) { return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * groups, 3 * groups); };
+  const auto batch = [&](int b) {
+    return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * groups, 3 * groups);
+  };
   uint32_t done = 0;
   // Rounds double, so that every stop leaves a whole power of two per batch.
   for (uint32_t round = params.noise > 0 ? std::min(most, 2u) : most;; round = std::min(most, 2 * round)) {
@@ -163,7 +177,8 @@ void solve_receiver(PathKernel<Rays>& kernel, const Footprint& receiver, const B
         const double d = luma[static_cast<std::size_t>(b) * (groups + 1) + g] - mean;
         squares += d * d;
       }
-      out[g].illuminance = Rgb(static_cast<float>(rgb[0] / n), static_cast<float>(rgb[1] / n), static_cast<float>(rgb[2] / n));
+      out[g].illuminance =
+          Rgb(static_cast<float>(rgb[0] / n), static_cast<float>(rgb[1] / n), static_cast<float>(rgb[2] / n));
       out[g].error = static_cast<float>(std::sqrt(squares / (kBatches * (kBatches - 1))));
       mean_total += mean;
     }

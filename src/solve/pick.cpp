@@ -5,8 +5,8 @@ namespace sconce {
 
 namespace {
 
-constexpr float kUniform = 0.75f;              // share of the density that ignores distance
-constexpr std::size_t kMostExamined = 512;     // beyond so many lamps all count as equally important
+constexpr float kUniform = 0.75f;           // share of the density that ignores distance
+constexpr std::size_t kMostExamined = 512;  // beyond so many lamps all count as equally important
 
 }  // namespace
 

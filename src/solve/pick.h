@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lamps get a shadow ray at a path vertex. The density is a function of the lamps and the place alone, never of
-// grouping or strength (contract.md, "Which lamp is sampled").
+// Which lamps get a shadow ray at a path vertex. The density is a function of the lamps and the place alone,
+// never of grouping or strength (contract.md, "Which lamp is sampled").
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ class LampPicker {
   void aim(const Vec3& x, const Vec3& n, int rays);
   /// Expected number of samples of lamp i at the last aim(): the factor of its density in MIS weights.
   float expected(std::size_t i) const { return expected_[i]; }
-  /// Calls f(lamp, expected) for the lamps picked by one uniform number: systematic sampling, so a lamp with expectation
-  /// 1 is always picked and the number of rays hardly varies.
+  /// Calls f(lamp, expected) for the lamps picked by one uniform number: systematic sampling, so a lamp with
+  /// expectation 1 is always picked and the number of rays hardly varies.
   template <class F>
   void pick(float u, F&& f) const {
     float sum = 0, next = u;
@@ -37,8 +37,8 @@ class LampPicker {
   std::vector<uint32_t> candidates_;
 };
 
-/// Shadow rays at the receiver and at later vertices for a scene of n lamps: enough that no lamp is rarer than about one
-/// in three, which bounds its noise at twice that of a bake of this lamp alone.
+/// Shadow rays at the receiver and at later vertices for a scene of n lamps: enough that no lamp is rarer
+/// than about one in three, which bounds its noise at twice that of a bake of this lamp alone.
 struct RayBudget {
   int receiver, bounce;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed forms at points, for every row of the solver table; numbers refer to the analytic tests in docs/methods.md.
+// Closed forms at points, for every row of the solver table; numbers refer to the analytic tests in
+// docs/methods.md.
 #include <gtest/gtest.h>
 
 #include "scene/groups.h"
@@ -17,9 +18,13 @@ struct Rig {
   Lamps lamps;
 
   explicit Rig(Scene s, Grouping grouping = Grouping::per_light)
-      : scene((assign_groups(s, grouping), std::move(s))), world(make_world(scene)), tracer(scene, world), lamps(scene, world) {}
+      : scene((assign_groups(s, grouping), std::move(s))),
+        world(make_world(scene)),
+        tracer(scene, world),
+        lamps(scene, world) {}
 
-  std::vector<GroupValue> at(const SolverRow& row, const Vec3& p, const Vec3& n, int samples = 4096, int bounces = -1) const {
+  std::vector<GroupValue> at(const SolverRow& row, const Vec3& p, const Vec3& n, int samples = 4096,
+                             int bounces = -1) const {
     BakeParams params;
     params.samples = samples;
     params.bounces = bounces;
@@ -38,8 +43,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, EverySolver, testing::ValuesIn([] {
                          }()),
                          [](const auto& row) { return std::string(row.param->name); });
 
-// 1. Furnace: radiosity of a closed enclosure with uniform emission e and reflectance r is e / (1 - r); illuminance
-// pi L (1 - r^(n+1)) / (1 - r) with n bounces.
+// 1. Furnace: radiosity of a closed enclosure with uniform emission e and reflectance r is e / (1 - r);
+// illuminance pi L (1 - r^(n+1)) / (1 - r) with n bounces.
 TEST_P(EverySolver, Furnace) {
   Scene scene;
   const Rgb rho(0.8f, 0.5f, 0.2f);
@@ -67,17 +72,20 @@ TEST_P(EverySolver, SphereInterior) {
   scene.lights.push_back(light);
   const Rig rig(std::move(scene));
   const double expected = 100 / 4.0 + 0.6 * 100 / (4.0 * 0.4);
-  EXPECT_NEAR(rig.at(*GetParam(), Vec3(1, 0.001f, 3), Vec3(0, 1, 0), 8192)[0].illuminance.g, expected, 0.01 * expected);
+  EXPECT_NEAR(rig.at(*GetParam(), Vec3(1, 0.001f, 3), Vec3(0, 1, 0), 8192)[0].illuminance.g, expected,
+              0.01 * expected);
 }
 
 // 9. Lambertian disk, on its axis and parallel at offset r.
 TEST_P(EverySolver, Disk) {
   Scene scene;
-  add_disk(scene, "lamp", add_material(scene, "glow", Rgb(0), Rgb(50)), Vec3(0, 2, 0), Vec3(0, -1, 0), 0.75f, 256);
+  add_disk(scene, "lamp", add_material(scene, "glow", Rgb(0), Rgb(50)), Vec3(0, 2, 0), Vec3(0, -1, 0), 0.75f,
+           256);
   const Rig rig(std::move(scene));
   for (const double r : {0.0, 0.5, 1.5, 4.0}) {
     const double z2 = 4, R2 = 0.75 * 0.75, s = z2 + r * r + R2;
-    const double expected = static_cast<double>(kPi) * 50 / 2 * (1 - (z2 + r * r - R2) / std::sqrt(s * s - 4 * R2 * r * r));
+    const double expected =
+        static_cast<double>(kPi) * 50 / 2 * (1 - (z2 + r * r - R2) / std::sqrt(s * s - 4 * R2 * r * r));
     const auto value = rig.at(*GetParam(), Vec3(r, 0, 0), Vec3(0, 1, 0), 16384)[0];
     EXPECT_NEAR(value.illuminance.g, expected, 0.003 * expected) << "offset " << r;
     EXPECT_LT(value.error, 0.01 * expected);
@@ -87,19 +95,23 @@ TEST_P(EverySolver, Disk) {
 // 10. Lambertian rectangle above a corner-centred receiver.
 TEST_P(EverySolver, Rectangle) {
   Scene scene;
-  add_quad(scene, "lamp", add_material(scene, "glow", Rgb(0), Rgb(20)), Vec3(-1, 1.5f, -0.5f), Vec3(2, 0, 0), Vec3(0, 0, 1));
+  add_quad(scene, "lamp", add_material(scene, "glow", Rgb(0), Rgb(20)), Vec3(-1, 1.5f, -0.5f), Vec3(2, 0, 0),
+           Vec3(0, 0, 1));
   const Rig rig(std::move(scene));
   const double a = 2 / (2 * 1.5), b = 1 / (2 * 1.5);
-  const double expected = 4 * 20 / 2.0 * (a / std::sqrt(1 + a * a) * std::atan(b / std::sqrt(1 + a * a)) +
-                                          b / std::sqrt(1 + b * b) * std::atan(a / std::sqrt(1 + b * b)));
-  EXPECT_NEAR(rig.at(*GetParam(), Vec3(0), Vec3(0, 1, 0), 16384)[0].illuminance.g, expected, 0.003 * expected);
+  const double expected = 4 * 20 / 2.0 *
+                          (a / std::sqrt(1 + a * a) * std::atan(b / std::sqrt(1 + a * a)) +
+                           b / std::sqrt(1 + b * b) * std::atan(a / std::sqrt(1 + b * b)));
+  EXPECT_NEAR(rig.at(*GetParam(), Vec3(0), Vec3(0, 1, 0), 16384)[0].illuminance.g, expected,
+              0.003 * expected);
   EXPECT_EQ(rig.at(*GetParam(), Vec3(0, 3, 0), Vec3(0, -1, 0))[0].illuminance, Rgb()) << "its back is black";
 }
 
 // 12. Inverse square and cosine, exactly; sun; range window of KHR_lights_punctual.
 TEST_P(EverySolver, PointSpotSun) {
   Scene scene;
-  add_quad(scene, "floor", add_material(scene, "black", Rgb(0)), Vec3(-9, 0, -9), Vec3(0, 0, 18), Vec3(18, 0, 0));
+  add_quad(scene, "floor", add_material(scene, "black", Rgb(0)), Vec3(-9, 0, -9), Vec3(0, 0, 18),
+           Vec3(18, 0, 0));
   Light light;
   light.name = "a point";
   light.intensity = Rgb(80, 40, 20);
@@ -110,7 +122,8 @@ TEST_P(EverySolver, PointSpotSun) {
   scene.lights.push_back(light);
   light.name = "c spot";
   light.shape = SpotLight{0.3f, 0.6f, 0};
-  light.frame = Mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 2, 0, 1));
+  light.frame =
+      Mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 2, 0, 1));
   scene.lights.push_back(light);
   light.name = "d sun";
   light.shape = SunLight{};
@@ -129,7 +142,8 @@ TEST_P(EverySolver, PointSpotSun) {
 
 TEST_P(EverySolver, ConstantSkyOverOpenGround) {
   Scene scene;
-  add_quad(scene, "floor", add_material(scene, "grey", Rgb(0.5f)), Vec3(-9, 0, -9), Vec3(0, 0, 18), Vec3(18, 0, 0));
+  add_quad(scene, "floor", add_material(scene, "grey", Rgb(0.5f)), Vec3(-9, 0, -9), Vec3(0, 0, 18),
+           Vec3(18, 0, 0));
   Light sky;
   sky.name = "sky";
   sky.intensity = Rgb(1000, 2000, 3000);
@@ -144,11 +158,12 @@ TEST_P(EverySolver, ConstantSkyOverOpenGround) {
 Scene coloured_box() {
   Scene scene;
   add_box(scene, "room", add_material(scene, "white", Rgb(0.7f)), Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
-  add_quad(scene, "red", add_material(scene, "red", Rgb(0.7f, 0.05f, 0.05f)), Vec3(-0.999f, 0, -1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  add_quad(scene, "red", add_material(scene, "red", Rgb(0.7f, 0.05f, 0.05f)), Vec3(-0.999f, 0, -1),
+           Vec3(0, 2, 0), Vec3(0, 0, 2));
   const auto lamp = add_material(scene, "glow", Rgb(0), Rgb(30, 25, 20));
   add_quad(scene, "lamp left", lamp, Vec3(-0.8f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  add_quad(scene, "lamp right", add_material(scene, "glow 2", Rgb(0), Rgb(3, 8, 12)), Vec3(0.4f, 1.99f, -0.2f), Vec3(0.4f, 0, 0),
-           Vec3(0, 0, 0.4f));
+  add_quad(scene, "lamp right", add_material(scene, "glow 2", Rgb(0), Rgb(3, 8, 12)),
+           Vec3(0.4f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
   return scene;
 }
 

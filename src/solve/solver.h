@@ -14,10 +14,10 @@
 namespace sconce {
 
 struct BakeParams {
-  int samples = 256;   ///< paths per receiver, rounded up to a multiple of kBatches
-  int bounces = -1;    ///< reflections before the receiver; 0 = direct only, -1 = unbounded
+  int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
+  int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
-  double noise = 0;    ///< stop a receiver early when its relative standard error falls below; 0 = never
+  double noise = 0;  ///< stop a receiver early when its relative standard error falls below; 0 = never
 };
 
 /// Independently scrambled batches of samples: their spread is the noise.
@@ -41,14 +41,16 @@ struct GroupValue {
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// All groups of one receiver at once. Thread-safe; a pure function of the footprint (its id names the random numbers).
+  /// All groups of one receiver at once. Thread-safe; a pure function of the footprint (its id names the
+  /// random numbers).
   /// @param out  one per scene group
   virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
 };
 
 struct SolverRow {
   std::string_view name, doc;
-  std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params, const Progress& progress);
+  std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params,
+                                     const Progress& progress);
 };
 
 /// path; in this order.

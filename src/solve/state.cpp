@@ -44,7 +44,8 @@ bool get(std::FILE* file, std::string& s) {
 }
 
 uint64_t checksum(const std::string& made_with, std::span<const GroupValue> values) {
-  return XXH3_64bits_withSeed(values.data(), values.size_bytes(), XXH3_64bits(made_with.data(), made_with.size()));
+  return XXH3_64bits_withSeed(values.data(), values.size_bytes(),
+                              XXH3_64bits(made_with.data(), made_with.size()));
 }
 
 }  // namespace
@@ -79,8 +80,9 @@ BakeState BakeState::open(const std::filesystem::path& path) {
   BakeHeader& h = state.header_;
   if (!get(state.file_, magic) || std::memcmp(magic, kMagic, sizeof kMagic) != 0)
     throw Error(path.string(), "is not the state of a bake by this version");
-  if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) || !get(state.file_, h.groups) ||
-      !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) || h.tile_size == 0 || h.receivers > (1ull << 34))
+  if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) ||
+      !get(state.file_, h.groups) || !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) ||
+      h.tile_size == 0 || h.receivers > (1ull << 34))
     throw Error(path.string(), "the header is damaged");
   const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
   state.offsets_.resize(tiles);
@@ -117,8 +119,11 @@ void BakeState::scan() {
 }
 
 BakeState::BakeState(BakeState&& other) noexcept
-    : path_(std::move(other.path_)), header_(std::move(other.header_)), file_(std::exchange(other.file_, nullptr)),
-      offsets_(std::move(other.offsets_)), made_with_(std::move(other.made_with_)) {}
+    : path_(std::move(other.path_)),
+      header_(std::move(other.header_)),
+      file_(std::exchange(other.file_, nullptr)),
+      offsets_(std::move(other.offsets_)),
+      made_with_(std::move(other.made_with_)) {}
 
 BakeState::~BakeState() {
   if (file_ != nullptr) std::fclose(file_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a bake on disk: one checksummed record per finished tile, appended as tiles finish. Checkpoint, shard and
-// input of the final assembly are the same file, so resuming and merging are unions of records.
+// The state of a bake on disk: one checksummed record per finished tile, appended as tiles finish.
+// Checkpoint, shard and input of the final assembly are the same file, so resuming and merging are unions of
+// records.
 #pragma once
 
 #include <cstdio>
@@ -15,10 +16,11 @@
 
 namespace sconce {
 
-/// What must agree for records to belong together, and `job`, free text from which the bake can be set up again.
+/// What must agree for records to belong together, and `job`, free text from which the bake can be set up
+/// again.
 struct BakeHeader {
-  std::string hash;        ///< of scene, seed, solver, bounces, atlas, basis, version (contract.md); not samples
-  std::string isa;         ///< instruction set the kernels ran on
+  std::string hash;  ///< of scene, seed, solver, bounces, atlas, basis, version (contract.md); not samples
+  std::string isa;   ///< instruction set the kernels ran on
   uint32_t groups = 0;
   uint64_t receivers = 0;
   uint32_t tile_size = 0;
@@ -56,7 +58,7 @@ class BakeState {
   BakeHeader header_;
   std::FILE* file_ = nullptr;
   mutable std::mutex mutex_;
-  std::vector<uint64_t> offsets_;      ///< of the values, 0 = none
+  std::vector<uint64_t> offsets_;  ///< of the values, 0 = none
   std::vector<std::string> made_with_;
 };
 

@@ -8,7 +8,8 @@ namespace sconce {
 
 std::span<const SolverRow> solvers() {
   static constexpr std::array kRows{
-      SolverRow{"path", "unbiased path tracing with next-event estimation, all groups in one pass", &make_path_solver},
+      SolverRow{"path", "unbiased path tracing with next-event estimation, all groups in one pass",
+                &make_path_solver},
   };
   return kRows;
 }

@@ -35,10 +35,10 @@ void Tracer::State::add(const std::vector<uint32_t>& primitives, bool masked) {
   if (primitives.empty()) return;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // An own copy: Embree reads 16 bytes at the last vertex, and pads its own buffers.
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                              sizeof(Vec3), world->positions.size()));
-  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                sizeof(Triangle), primitives.size()));
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), world->positions.size()));
+  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), primitives.size()));
   if (vertices == nullptr || indices == nullptr) throw Error("rays", "out of memory");
   for (std::size_t i = 0; i < world->positions.size(); ++i) {
     // Vertices of dropped triangles may be anything; Embree asserts finite ones.
@@ -86,7 +86,8 @@ Tracer::Tracer(const Scene& scene, const World& world) : state_(std::make_unique
   s.add(s.triangles[0], false);
   s.add(s.triangles[1], true);
   rtcCommitScene(s.rtc);
-  if (rtcGetDeviceError(s.device) != RTC_ERROR_NONE) throw Error("rays", "Embree cannot build the scene (out of memory?)");
+  if (rtcGetDeviceError(s.device) != RTC_ERROR_NONE)
+    throw Error("rays", "Embree cannot build the scene (out of memory?)");
 }
 
 Tracer::~Tracer() = default;

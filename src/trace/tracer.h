@@ -21,13 +21,13 @@ struct Hit {
   uint32_t triangle = kMiss;  ///< of the World
   Vec2 barycentric{0};        ///< weights of vertices 1 and 2
   float distance = 0;
-  bool back = false;          ///< the ray came from behind the face
+  bool back = false;  ///< the ray came from behind the face
 
   explicit operator bool() const { return triangle != kMiss; }
 };
 
-/// Rays against a World, watertight (Embree's robust mode). Surfaces block from both sides; alpha-masked texels do not.
-/// Thread-safe. The scene and world must outlive it.
+/// Rays against a World, watertight (Embree's robust mode). Surfaces block from both sides; alpha-masked
+/// texels do not. Thread-safe. The scene and world must outlive it.
 class Tracer {
  public:
   Tracer(const Scene& scene, const World& world);
@@ -47,8 +47,8 @@ class Tracer {
 /// Instruction set that Embree's kernels run on here. Same binary and same ISA give the same bits.
 std::string isa();
 
-/// Start of a ray that leaves a surface: moved off along the face normal (towards `direction`) by a few ulps of the
-/// coordinates, so that the ray does not meet its own surface again.
+/// Start of a ray that leaves a surface: moved off along the face normal (towards `direction`) by a few ulps
+/// of the coordinates, so that the ray does not meet its own surface again.
 Vec3 offset_origin(const Vec3& position, const Vec3& face_normal, const Vec3& direction);
 
 }  // namespace sconce
