@@ -20,20 +20,12 @@ SurfacePoint Footprint::sample(Vec2 u) const {
     const float share = piece.cumulative - before;
     u.x = share > 0 ? std::min((u.x - before) / share, 0x1.fffffep-1f) : 0.0f;
   }
-  // Low-distortion square-to-triangle map (Heitz 2019): keeps the sequence's strata compact.
-  float b1 = u.x, b2 = u.y;
-  if (b2 > b1) {
-    b1 *= 0.5f;
-    b2 -= b1;
-  } else {
-    b2 *= 0.5f;
-    b1 -= b2;
-  }
-  const float b0 = 1.0f - b1 - b2;
+  const Vec2 b = square_to_triangle(u);
+  const float b0 = 1.0f - b.x - b.y;
   SurfacePoint p;
-  p.position = b0 * piece.p0 + b1 * piece.p1 + b2 * piece.p2;
+  p.position = b0 * piece.p0 + b.x * piece.p1 + b.y * piece.p2;
   p.geometric_normal = piece.geometric_normal;
-  p.shading_normal = normalize_or(b0 * piece.n0 + b1 * piece.n1 + b2 * piece.n2, piece.geometric_normal);
+  p.shading_normal = normalize_or(b0 * piece.n0 + b.x * piece.n1 + b.y * piece.n2, piece.geometric_normal);
   return p;
 }
 

@@ -48,19 +48,31 @@ constexpr float to_unit(uint32_t x) {
 }
 }  // namespace detail
 
+/// A pair as 32-bit fractions. A further XOR with any constants is again a (0,2)-sequence.
+struct SobolBits {
+  uint32_t x, y;
+
+  Vec2 unit() const { return {detail::to_unit(x), detail::to_unit(y)}; }
+  /// Scrambled once more, as a sequence of its own for `key`.
+  SobolBits scrambled(uint32_t key) const {
+    const uint32_t h = mix32(key);
+    return {x ^ h, y ^ (h * 0x9e3779b1u)};
+  }
+};
+
 /// As sobol_pair, for a caller that asks for many pairs of one point: `reversed` =
 /// detail::reverse_bits(index).
-[[gnu::always_inline]] inline Vec2 sobol_pair_reversed(uint32_t reversed, uint32_t pair, uint32_t stream) {
+inline SobolBits sobol_bits(uint32_t reversed, uint32_t pair, uint32_t stream) {
   const uint32_t key = mix32(stream ^ (pair * 0x9e3779b9u));
   const uint32_t shuffled = detail::reverse_bits(detail::owen_reversed(reversed, key));
   const uint32_t x = detail::owen_reversed(shuffled, mix32(key + 1));
   const uint32_t y = detail::owen_reversed(detail::sobol1_reversed(shuffled), mix32(key + 2));
-  return {detail::to_unit(detail::reverse_bits(x)), detail::to_unit(detail::reverse_bits(y))};
+  return {detail::reverse_bits(x), detail::reverse_bits(y)};
 }
 
 /// Pair `pair` of point `index` of the sequence that (seed, receiver) name. Pure; any order of calls.
 inline Vec2 sobol_pair(uint32_t index, uint32_t pair, uint32_t stream) {
-  return sobol_pair_reversed(detail::reverse_bits(index), pair, stream);
+  return sobol_bits(detail::reverse_bits(index), pair, stream).unit();
 }
 
 /// The pairs of one sample, taken in order.

@@ -21,6 +21,13 @@ inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
   return length > 1e-20f && std::isfinite(length) ? v / length : fallback;
 }
 
+/// Low-distortion map of the unit square to barycentric weights of vertices 1 and 2 (Heitz 2019): uniform
+/// stays uniform, and strata stay compact.
+inline Vec2 square_to_triangle(Vec2 u) {
+  if (u.y > u.x) return {0.5f * u.x, u.y - 0.5f * u.x};
+  return {u.x - 0.5f * u.y, 0.5f * u.y};
+}
+
 /// Right-handed orthonormal frame whose third axis is n (Duff et al. 2017, "Building an Orthonormal Basis,
 /// Revisited").
 struct Frame {

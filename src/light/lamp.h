@@ -3,6 +3,7 @@
 // row of the variant (the compiler then lists what is missing).
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -71,26 +72,19 @@ struct MeshLamp {
   /// @param where  when given: piece and barycentric coordinates within it of the point
   bool sample(const Vec3& x, Vec2 u, LightSample& out, std::pair<const Piece*, Vec2>* where = nullptr) const {
     const Piece& piece = pieces[table.sample(u.x)];
-    float b1 = u.x, b2 = u.y;
-    if (b2 > b1) {
-      b1 *= 0.5f;
-      b2 -= b1;
-    } else {
-      b2 *= 0.5f;
-      b1 -= b2;
-    }
-    const Vec3 to = piece.p0 + b1 * piece.e1 + b2 * piece.e2 - x;
-    const float d2 = glm::dot(to, to),
-                facing = two_sided ? std::abs(glm::dot(to, piece.normal)) : -glm::dot(to, piece.normal);
-    if (!(d2 > 1e-14f) || !(facing > 0)) return false;
-    const float d = std::sqrt(d2), cosine = facing / d;
+    const Vec2 b = square_to_triangle(u);
+    const Vec3 to = piece.p0 + b.x * piece.e1 + b.y * piece.e2 - x;
+    const float d2 = glm::dot(to, to);
+    const float facing = two_sided ? std::abs(glm::dot(to, piece.normal)) : -glm::dot(to, piece.normal);
+    if (!(d2 > 1e-14f)) return false;
+    const float inverse = 1 / std::sqrt(d2), cosine = facing * inverse;
     if (!(cosine > 1e-7f)) return false;
-    out.direction = to / d;
-    out.distance = d;
+    out.direction = to * inverse;
+    out.distance = d2 * inverse;
     out.radiance = piece.emission;
     out.pdf = piece.density * d2 / cosine;
     out.delta = false;
-    if (where != nullptr) *where = {&piece, Vec2(b1, b2)};
+    if (where != nullptr) *where = {&piece, b};
     return true;
   }
 };
@@ -105,16 +99,22 @@ struct Lamp {
   bool infinite = false;  ///< sun or sky
 };
 
-/// Where a lamp is and where it can shine, for a quick bound: a sphere, cut by a plane or a cone.
-struct LampBound {
-  Vec3 center{0};
-  float radius = 0;
-  Vec3 axis{0};         ///< of the plane or cone; for a sun the direction towards it
-  float plane = 0;      ///< nothing below dot(axis, x) = plane is lit; with axis 0 everything is
-  float cos_cone = -2;  ///< nothing outside this cone about the axis; -2 = no cone
-  float least2 = 0;     ///< squared distance below which importance no longer grows
-  float range2 = 1e38f;
-  enum class Kind : uint8_t { near, sun, everywhere } kind = Kind::near;
+/// Where lamps are and where they can shine, for quick bounds: spheres, cut by a plane, a cone or a range.
+/// One array per property, so that a loop over lamps is a loop over vectors.
+struct LampBounds {
+  std::vector<float> x, y, z, radius;
+  std::vector<float> axis_x, axis_y, axis_z,
+      plane;                  ///< nothing below dot(axis, p) = plane is lit; axis 0: everything is
+  std::vector<float> least2;  ///< squared distance below which importance no longer grows
+  std::vector<float> range2;
+  struct Cone {
+    uint32_t lamp;
+    Vec3 axis;
+    float cosine;
+  };
+  std::vector<Cone> cones;
+  std::vector<std::pair<uint32_t, Vec3>> suns;  ///< and the direction towards them
+  std::vector<uint32_t> everywhere;             ///< skies
 };
 
 /// All lamps of a scene with what look-ups need. The scene and world must outlive it.
@@ -146,20 +146,11 @@ class Lamps {
   Rgb sky_radiance(std::size_t i, const Vec3& direction) const;
   float sky_pdf(std::size_t i, const Vec3& direction) const;
 
-  /// How much of lamp i may reach (x, n) at unit strength relative to its mean over the scene: a geometric
+  /// How much of each lamp may reach (x, n) at unit strength relative to its mean over the scene: a geometric
   /// bound, never its strength; 0 where nothing can (below the horizon, behind a flat lamp, outside the
   /// cone). Dimensionless.
-  [[gnu::always_inline]] float importance(std::size_t i, const Vec3& x, const Vec3& n) const {
-    const LampBound& b = bounds_[i];
-    if (b.kind != LampBound::Kind::near)
-      return b.kind == LampBound::Kind::everywhere || glm::dot(b.axis, n) > 0 ? 1.0f : 0.0f;
-    const Vec3 to = b.center - x;
-    if (glm::dot(to, n) <= -b.radius || glm::dot(b.axis, x) < b.plane) return 0.0f;
-    const float d2 = glm::dot(to, to);
-    if (d2 >= b.range2 || (b.cos_cone > -2 && -glm::dot(to, b.axis) <= b.cos_cone * std::sqrt(d2)))
-      return 0.0f;
-    return scene_radius2_ / std::max(d2, b.least2);
-  }
+  /// @param out  one per lamp
+  void importances(const Vec3& x, const Vec3& n, std::span<float> out) const;
 
  private:
   bool sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const;
@@ -169,7 +160,7 @@ class Lamps {
   std::vector<Lamp> lamps_;
   std::vector<int> lamp_of_;
   std::vector<uint32_t> skies_;
-  std::vector<LampBound> bounds_;
+  LampBounds bounds_;
   float scene_radius2_;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "light/bounds.h"
 #include "light/lamp.h"
 #include "light/mesh_lamp.h"
 #include "light/punctual.h"
@@ -7,13 +8,6 @@
 namespace sconce {
 
 namespace {
-
-template <class... F>
-struct Overload : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>;
 
 Lamp make_lamp(const Light& light) {
   return std::visit(Overload{[&](const PointLight& p) {
@@ -25,34 +19,6 @@ Lamp make_lamp(const Light& light) {
                              [&](const SunLight&) { return make_sun(light); },
                              [&](const SkyLight& s) { return make_sky(light, s); }},
                     light.shape);
-}
-
-LampBound bound_of(const Lamp& lamp, float scene_radius2) {
-  constexpr float kLargest = 100;  // importance at which a lamp is near enough
-  LampBound bound;
-  std::visit(Overload{[&](const PunctualLamp& l) {
-                        bound.center = l.position;
-                        if (l.range > 0) bound.range2 = l.range * l.range;
-                        bound.plane = -1e38f;
-                        if (l.cos_outer > -1) {
-                          bound.axis = l.axis;
-                          bound.cos_cone = l.cos_outer;
-                        }
-                      },
-                      [&](const SunLamp& l) {
-                        bound.kind = LampBound::Kind::sun;
-                        bound.axis = l.direction;
-                      },
-                      [&](const SkyLamp&) { bound.kind = LampBound::Kind::everywhere; },
-                      [&](const MeshLamp& l) {
-                        bound.center = l.center;
-                        bound.radius = l.radius;
-                        bound.axis = l.axis;
-                        bound.plane = l.plane;
-                      }},
-             lamp.shape);
-  bound.least2 = std::max(bound.radius * bound.radius, scene_radius2 / kLargest);
-  return bound;
 }
 
 }  // namespace
@@ -74,7 +40,7 @@ Lamps::Lamps(const Scene& scene, const World& world) : scene_(&scene), world_(&w
     }
     t = end;
   }
-  for (const Lamp& lamp : lamps_) bounds_.push_back(bound_of(lamp, scene_radius2_));
+  bounds_ = make_bounds(lamps_, scene_radius2_);
 }
 
 bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const {

@@ -39,8 +39,7 @@ class PathKernel {
         lamps_(lamps),
         picker_(lamps),
         bounces_(bounces),
-        budget_(shadow_ray_budget(lamps.size())),
-        slots_(static_cast<uint32_t>(lamps.size()) + 2) {
+        budget_(shadow_ray_budget(lamps.size())) {
     for (const Lamp& lamp : lamps.all())
       area_lights_ |=
           std::holds_alternative<MeshLamp>(lamp.shape) || std::holds_alternative<SkyLamp>(lamp.shape);
@@ -49,21 +48,21 @@ class PathKernel {
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
   void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
     const uint32_t reversed = detail::reverse_bits(index);
-    SurfacePoint at = receiver.sample(sobol_pair_reversed(reversed, kFootprintPair, stream));
+    SurfacePoint at = receiver.sample(sobol_bits(reversed, kFootprintPair, stream).unit());
     Rgb throughput{1.0f};
     for (uint32_t depth = 0;; ++depth) {
-      const auto pair = [&](uint32_t slot) {
-        return sobol_pair_reversed(reversed, depth * slots_ + slot, stream);
-      };
-      const Vec2 choice = pair(1);
+      const auto bits = [&](uint32_t slot) { return sobol_bits(reversed, 3 * depth + slot, stream); };
+      const Vec2 choice = bits(1).unit();
+      const SobolBits on_lamps = bits(2);
       picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
-        next_event(at, lamp, expected, pair(2 + lamp), throughput, sums);
+        next_event(at, lamp, expected, on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput,
+                   sums);
       });
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
 
-      const Vec3 local = cosine_direction(pair(0));
+      const Vec3 local = cosine_direction(bits(0).unit());
       const Vec3 direction = glm::normalize(Frame(at.shading_normal).to_world(local));
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
@@ -92,7 +91,7 @@ class PathKernel {
       throughput *= shade(scene_, world_, hit.triangle, hit.barycentric).base_color;
       if (depth >= 1) {
         const float survival = std::min(1.0f, throughput.max());
-        if (!(pair(1).y < survival)) return;
+        if (!(choice.y < survival)) return;
         throughput *= 1 / survival;
       }
       if (throughput.is_black()) return;
@@ -138,7 +137,6 @@ class PathKernel {
   LampPicker picker_;
   int bounces_;
   RayBudget budget_;
-  uint32_t slots_;
   bool area_lights_ = false;
 };
 

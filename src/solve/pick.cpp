@@ -13,14 +13,15 @@ constexpr std::size_t kMostExamined = 512;  // beyond so many lamps all count as
 void LampPicker::aim(const Vec3& x, const Vec3& n, int rays) {
   candidates_.clear();
   const std::size_t count = lamps_->size();
+  if (count <= kMostExamined)
+    lamps_->importances(x, n, expected_);
+  else
+    std::fill(expected_.begin(), expected_.end(), 1.0f);
   float sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const float f = count <= kMostExamined ? lamps_->importance(i, x, n) : 1.0f;
-    expected_[i] = f;
-    if (f > 0) {
-      candidates_.push_back(static_cast<uint32_t>(i));
-      sum += f;
-    }
+    if (expected_[i] <= 0) continue;
+    candidates_.push_back(static_cast<uint32_t>(i));
+    sum += expected_[i];
   }
   const float k = static_cast<float>(rays), m = static_cast<float>(candidates_.size());
   if (m <= k) {
