@@ -21,20 +21,11 @@ const tinygltf::Accessor& accessor_at(const GltfSource& source, int index, const
 }
 
 std::size_t component_size(int type, const std::string& where) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      throw Error(where, "componentType " + std::to_string(type) + " is not supported",
-                  "5120, 5121, 5122, 5123, 5125, 5126");
-  }
+  const int bytes = component_bytes(type);
+  if (bytes == 0)
+    throw Error(where, "componentType " + std::to_string(type) + " is not supported",
+                "5120, 5121, 5122, 5123, 5125, 5126");
+  return static_cast<std::size_t>(bytes);
 }
 
 template <class T>
@@ -144,6 +135,22 @@ std::vector<Out> read(const GltfSource& source, int index, int wanted, const std
 }
 
 }  // namespace
+
+int component_bytes(int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
+  }
+}
 
 std::vector<float> read_floats(const GltfSource& source, int accessor, int components,
                                const std::string& place) {

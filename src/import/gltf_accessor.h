@@ -21,6 +21,9 @@ std::vector<float> read_floats(const GltfSource& source, int accessor, int compo
 /// Unsigned scalars: vertex indices. @throws Error as above
 std::vector<uint32_t> read_indices(const GltfSource& source, int accessor, const std::string& place);
 
+/// Bytes of a component of glTF's componentType; 0 for what is none.
+int component_bytes(int component_type);
+
 /// Does all that the accessor needs lie in buffers that are there?
 bool has_accessor(const GltfSource& source, int accessor, const std::string& place);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "import/gltf_accessor.h"
 
 namespace sconce {
 
@@ -26,19 +27,7 @@ const json& element(const json& root, const char* array, const json& index, cons
 }
 
 int component_bytes(const json& accessor) {
-  switch (accessor.value("componentType", 0)) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      return 0;
-  }
+  return sconce::component_bytes(accessor.value("componentType", 0));
 }
 
 void check_stream(const json& root, const json& primitive, const char* data, std::size_t size,
