@@ -19,7 +19,7 @@ AliasTable::AliasTable(std::span<const double> weights)
   while (!small.empty() && !large.empty()) {
     const uint32_t s = small.back(), l = large.back();
     small.pop_back();
-    cells_[s] = {static_cast<float>(scaled[s]), l};
+    cells_[s] = {static_cast<float>(scaled[s]), l, 0, 0};
     scaled[l] -= 1.0 - scaled[s];
     if (scaled[l] < 1.0) {
       large.pop_back();
@@ -27,8 +27,9 @@ AliasTable::AliasTable(std::span<const double> weights)
     }
   }
   // What is left differs from 1 by rounding only; a zero weight must never be picked.
-  for (const uint32_t i : large) cells_[i] = {1.0f, i};
-  for (const uint32_t i : small) cells_[i] = {1.0f, i};
+  for (const uint32_t i : large) cells_[i] = {1.0f, i, 0, 0};
+  for (const uint32_t i : small) cells_[i] = {1.0f, i, 0, 0};
+  for (Cell& cell : cells_) cell.per_keep = 1 / cell.keep, cell.per_rest = 1 / (1 - cell.keep);
 }
 
 }  // namespace sconce

@@ -25,10 +25,10 @@ class AliasTable {
     const float rest = std::min(scaled - static_cast<float>(i), 0x1.fffffep-1f);
     const Cell& cell = cells_[i];
     if (rest < cell.keep) {
-      u = std::min(rest / cell.keep, 0x1.fffffep-1f);
+      u = std::min(rest * cell.per_keep, 0x1.fffffep-1f);
       return i;
     }
-    u = std::min((rest - cell.keep) / (1.0f - cell.keep), 0x1.fffffep-1f);
+    u = std::min((rest - cell.keep) * cell.per_rest, 0x1.fffffep-1f);
     return cell.alias;
   }
 
@@ -36,6 +36,7 @@ class AliasTable {
   struct Cell {
     float keep;
     uint32_t alias;
+    float per_keep, per_rest;  ///< 1 / keep and 1 / (1 - keep)
   };
   std::vector<Cell> cells_;
   std::vector<float> probabilities_;

@@ -27,11 +27,6 @@ constexpr double kCellVisits = 400;    // on an ordinary surface
 constexpr uint32_t kNobody = 0xffffffffu;
 constexpr double kEnough = 8;  // hits expected at kFullDensity before their absence says something
 
-Vec3 cosine_direction(const Vec3& n, Vec2 u) {
-  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return glm::normalize(Frame(n).to_world(Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x))));
-}
-
 Vec2 triangle_point(Vec2 u) {
   const float s = std::sqrt(u.x);
   return {s * (1 - u.y), s * u.y};
@@ -76,7 +71,7 @@ class Starts {
     const uint32_t t = triangles_[i];
     const bool back = scene_[world_.materials[t]].double_sided && w.y < 0.5f;
     const Vec3 n = back ? -world_.face_normals[t] : world_.face_normals[t];
-    const Vec3 direction = cosine_direction(n, v);
+    const Vec3 direction = Frame(n).to_world(square_to_cosine(v));
     return {offset_origin(world_.position(t, triangle_point(u)), n, direction), direction};
   }
 
@@ -210,7 +205,7 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
             2 * hit.triangle + (hit.back ? 1 : 0), from_camera && vertex == 0 ? kCameraWeight : 1, position};
         if (hit.back && !scene[world.materials[hit.triangle]].double_sided) break;  // black
         const Vec3 n = hit.back ? -world.face_normals[hit.triangle] : world.face_normals[hit.triangle];
-        const Vec3 direction = cosine_direction(n, sampler.next());
+        const Vec3 direction = Frame(n).to_world(square_to_cosine(sampler.next()));
         ray = {offset_origin(position, n, direction), direction};
       }
     }

@@ -40,17 +40,11 @@ int wrap(int i, int size, Texture::Wrap mode) {
   return j < 0 ? j + size : j;
 }
 
-Texel fetch(const Texture& texture, int x, int y, bool srgb) {
-  const Image8& image = texture.pixels;
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::size_t at = (static_cast<std::size_t>(wrap(y, image.height, texture.wrap_v)) *
-                              static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(wrap(x, image.width, texture.wrap_u))) *
-                         channels;
-  const unsigned char* p = &image.data[at];
-  const auto& lut = srgb ? tables().srgb : tables().linear;
-  if (channels < 3) return {Rgb(lut[p[0]]), channels == 2 ? tables().linear[p[1]] : 1.0f};
-  return {Rgb(lut[p[0]], lut[p[1]], lut[p[2]]), channels == 4 ? tables().linear[p[3]] : 1.0f};
+/// Decodes one stored texel.
+Texel decode(const unsigned char* p, int channels, const std::array<float, 256>& lut,
+             const std::array<float, 256>& linear) {
+  if (channels < 3) return {Rgb(lut[p[0]]), channels == 2 ? linear[p[1]] : 1.0f};
+  return {Rgb(lut[p[0]], lut[p[1]], lut[p[2]]), channels == 4 ? linear[p[3]] : 1.0f};
 }
 
 }  // namespace
@@ -77,13 +71,28 @@ Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool sr
   };
   const float x = fold(st.x, texture.wrap_u) * static_cast<float>(texture.pixels.width);
   const float y = fold(st.y, texture.wrap_v) * static_cast<float>(texture.pixels.height);
+  const Image8& image = texture.pixels;
+  const DecodeTables& table = tables();
+  const auto& lut = srgb ? table.srgb : table.linear;
+  const auto row = [&](int j) {
+    return &image.data[static_cast<std::size_t>(wrap(j, image.height, texture.wrap_v)) *
+                       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels)];
+  };
+  const auto column = [&](int i) {
+    return static_cast<std::size_t>(wrap(i, image.width, texture.wrap_u)) *
+           static_cast<std::size_t>(image.channels);
+  };
   if (texture.nearest)
-    return fetch(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), srgb);
+    return decode(row(static_cast<int>(std::floor(y))) + column(static_cast<int>(std::floor(x))),
+                  image.channels, lut, table.linear);
   const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
   const float wx = x - 0.5f - fx, wy = y - 0.5f - fy;
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const Texel a = fetch(texture, ix, iy, srgb), b = fetch(texture, ix + 1, iy, srgb);
-  const Texel c = fetch(texture, ix, iy + 1, srgb), d = fetch(texture, ix + 1, iy + 1, srgb);
+  const unsigned char *top = row(iy), *bottom = row(iy + 1);
+  const std::size_t left = column(ix), right = column(ix + 1);
+  const auto fetch = [&](const unsigned char* p) { return decode(p, image.channels, lut, table.linear); };
+  const Texel a = fetch(top + left), b = fetch(top + right), c = fetch(bottom + left),
+              d = fetch(bottom + right);
   const float wa = (1 - wx) * (1 - wy), wb = wx * (1 - wy), wc = (1 - wx) * wy, wd = wx * wy;
   return {wa * a.rgb + wb * b.rgb + wc * c.rgb + wd * d.rgb,
           wa * a.alpha + wb * b.alpha + wc * c.alpha + wd * d.alpha};

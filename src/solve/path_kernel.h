@@ -10,22 +10,6 @@
 
 namespace sconce {
 
-/// Cosine-distributed direction about +z (Shirley & Chiu's concentric map); density cos/pi.
-inline Vec3 cosine_direction(Vec2 u) {
-  const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-  if (a == 0 && b == 0) return Vec3(0, 0, 1);
-  float r, phi;
-  if (std::abs(a) > std::abs(b)) {
-    r = a;
-    phi = kPi / 4 * (b / a);
-  } else {
-    r = b;
-    phi = kPi / 2 - kPi / 4 * (a / b);
-  }
-  const float x = r * std::cos(phi), y = r * std::sin(phi);
-  return {x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y))};
-}
-
 /// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met
 /// by the path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
 /// @tparam Rays  has closest(Ray) and occluded(Ray)
@@ -55,18 +39,19 @@ class PathKernel {
       const Vec2 choice = bits(1).unit();
       const SobolBits on_lamps = bits(2);
       picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
+      const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
+      const float clearance = 4 * glm::distance(start, at.position);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
-        next_event(at, lamp, expected, on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput,
-                   sums);
+        next_event(at, start, clearance, lamp, expected,
+                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, sums);
       });
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
 
-      const Vec3 local = cosine_direction(bits(0).unit());
-      const Vec3 direction = glm::normalize(Frame(at.shading_normal).to_world(local));
+      const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
-      const Hit hit = rays_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
+      const Hit hit = rays_.closest({start, direction});
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
           const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
@@ -108,17 +93,16 @@ class PathKernel {
  private:
   static constexpr uint32_t kFootprintPair = 0xffffff00u;
 
-  void next_event(const SurfacePoint& at, uint32_t lamp, float expected, Vec2 u, const Rgb& throughput,
-                  std::span<double> sums) {
+  /// @param start      where rays leave the surface
+  /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
+  void next_event(const SurfacePoint& at, const Vec3& start, float clearance, uint32_t lamp, float expected,
+                  Vec2 u, const Rgb& throughput, std::span<double> sums) {
     LightSample light;
     if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
     const float cosine = glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
-    const Vec3 origin = offset_origin(at.position, at.geometric_normal, light.direction);
-    // The lamp's own surface must not count as an occluder.
-    const float end =
-        light.delta ? light.distance : light.distance * (1 - 1e-4f) - 4 * glm::distance(origin, at.position);
-    if (end > 0 && rays_.occluded({origin, light.direction, end})) return;
+    const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
+    if (end > 0 && rays_.occluded({start, light.direction, end})) return;
     const float density = light.delta ? expected : expected * light.pdf + cosine * kInvPi;
     add(sums, lamp, throughput * light.radiance * (cosine / density));
   }

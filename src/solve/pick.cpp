@@ -11,25 +11,27 @@ constexpr std::size_t kMostExamined = 512;  // beyond so many lamps all count as
 }  // namespace
 
 void LampPicker::aim(const Vec3& x, const Vec3& n, int rays) {
-  candidates_.clear();
   const std::size_t count = lamps_->size();
   if (count <= kMostExamined)
     lamps_->importances(x, n, expected_);
   else
     std::fill(expected_.begin(), expected_.end(), 1.0f);
+  candidates_.resize(count);
+  std::size_t reachable = 0;
   float sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (expected_[i] <= 0) continue;
-    candidates_.push_back(static_cast<uint32_t>(i));
+    candidates_[reachable] = static_cast<uint32_t>(i);
+    reachable += expected_[i] > 0 ? 1 : 0;
     sum += expected_[i];
   }
-  const float k = static_cast<float>(rays), m = static_cast<float>(candidates_.size());
+  candidates_.resize(reachable);
+  const float k = static_cast<float>(rays), m = static_cast<float>(reachable);
   if (m <= k) {
     for (const uint32_t i : candidates_) expected_[i] = 1;
     return;
   }
-  for (const uint32_t i : candidates_)
-    expected_[i] = std::min(1.0f, k * (kUniform / m + (1 - kUniform) * expected_[i] / sum));
+  const float even = k * kUniform / m, by_place = k * (1 - kUniform) / sum;
+  for (const uint32_t i : candidates_) expected_[i] = std::min(1.0f, even + by_place * expected_[i]);
 }
 
 RayBudget shadow_ray_budget(std::size_t lamps) {
