@@ -13,7 +13,7 @@ class PathSolver final : public Solver {
 
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
     PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
-                              params_.bounces);
+                              params_.bounces, context_.wanted);
     solve_receiver(kernel, receiver, params_, out);
   }
 

@@ -16,7 +16,9 @@ namespace sconce {
 template <class Rays>
 class PathKernel {
  public:
-  PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces)
+  /// @param wanted  SolveContext::wanted
+  PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces,
+             std::span<const uint8_t> wanted = {})
       : scene_(scene),
         world_(world),
         rays_(rays),
@@ -24,9 +26,11 @@ class PathKernel {
         picker_(lamps),
         bounces_(bounces),
         budget_(shadow_ray_budget(lamps.size())) {
-    for (const Lamp& lamp : lamps.all())
-      area_lights_ |=
-          std::holds_alternative<MeshLamp>(lamp.shape) || std::holds_alternative<SkyLamp>(lamp.shape);
+    for (const Lamp& lamp : lamps.all()) {
+      wanted_.push_back(wanted.empty() ? 1 : wanted[lamp.group.value]);
+      area_lights_ |= wanted_.back() != 0 && (std::holds_alternative<MeshLamp>(lamp.shape) ||
+                                              std::holds_alternative<SkyLamp>(lamp.shape));
+    }
   }
 
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
@@ -97,6 +101,7 @@ class PathKernel {
   /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
   void next_event(const SurfacePoint& at, const Vec3& start, float clearance, uint32_t lamp, float expected,
                   Vec2 u, const Rgb& throughput, std::span<double> sums) {
+    if (wanted_[lamp] == 0) return;
     LightSample light;
     if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
     const float cosine = glm::dot(light.direction, at.shading_normal);
@@ -108,6 +113,7 @@ class PathKernel {
   }
 
   void add(std::span<double> sums, uint32_t lamp, const Rgb& value) {
+    if (wanted_[lamp] == 0) return;
     const std::size_t g = 3 * static_cast<std::size_t>(lamps_.all()[lamp].group.value);
     sums[g] += static_cast<double>(value.r);
     sums[g + 1] += static_cast<double>(value.g);
@@ -121,6 +127,7 @@ class PathKernel {
   LampPicker picker_;
   int bounces_;
   RayBudget budget_;
+  std::vector<uint8_t> wanted_;  ///< per lamp; which are sampled never depends on it, so bits stay
   bool area_lights_ = false;
 };
 

@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "core/receiver.h"
 #include "light/lamp.h"
+#include "receive/atlas.h"
 #include "trace/tracer.h"
 
 namespace sconce {
@@ -29,6 +30,11 @@ struct SolveContext {
   const World& world;
   const Tracer& tracer;
   const Lamps& lamps;
+  const Atlas* atlas = nullptr;               ///< the lightmap, where there is one
+  const TexelReceivers* receivers = nullptr;  ///< its texels
+  std::span<const uint8_t> wanted = {};  ///< per scene group: 0 = may stay black; empty = all are asked for
+
+  bool wants(Id<LightGroup> group) const { return wanted.empty() || wanted[group.value] != 0; }
 };
 
 /// One receiver's answer for one group.
