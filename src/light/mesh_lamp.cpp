@@ -138,6 +138,25 @@ bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const 
   return true;
 }
 
+EmittedLight emit(const MeshLamp& lamp, const Scene& scene, const World& world, Vec2 where, Vec2 whither) {
+  const MeshLamp::Piece& piece = lamp.pieces[lamp.table.sample(where.x)];
+  const Vec2 b = square_to_triangle(where);
+  EmittedLight out;
+  out.position = piece.p0 + b.x * piece.e1 + b.y * piece.e2;
+  out.normal = piece.normal;
+  if (lamp.two_sided) {
+    whither.x *= 2;
+    if (whither.x >= 1) out.normal = -out.normal, whither.x -= 1;
+  }
+  out.direction = Frame(out.normal).to_world(square_to_cosine(whither));
+  const Rgb radiance =
+      lamp.uniform ? piece.emission
+                   : emission_at(scene, world, piece.triangle,
+                                 piece.b0 + b.x * (piece.b1 - piece.b0) + b.y * (piece.b2 - piece.b0));
+  out.flux = radiance * (kPi * (lamp.two_sided ? 2.0f : 1.0f) / piece.density);
+  return out;
+}
+
 float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,
           const Vec3& direction) {
   const uint32_t i = triangle - lamp.first_triangle;
