@@ -10,20 +10,27 @@
 
 namespace sconce {
 
+/// A cache that holds nothing: every path is followed to its end.
+struct NoCache {};
+
 /// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met
 /// by the path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
-/// @tparam Rays  has closest(Ray) and occluded(Ray)
-template <class Rays>
+/// @tparam Rays   has closest(Ray) and occluded(Ray)
+/// @tparam Cache  has read(at, distance, reflections, throughput, sums) -> bool: adds to the sums what a ray
+///                of `distance` metres finds reflected at `at`, in place of the rest of the path; false: it
+///                cannot tell, the path goes on. `reflections` counts the one at `at`.
+template <class Rays, class Cache = NoCache>
 class PathKernel {
  public:
   /// @param wanted  SolveContext::wanted
   PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces,
-             std::span<const uint8_t> wanted = {})
+             std::span<const uint8_t> wanted = {}, Cache* cache = nullptr)
       : scene_(scene),
         world_(world),
         rays_(rays),
         lamps_(lamps),
         picker_(lamps),
+        cache_(cache),
         bounces_(bounces),
         budget_(shadow_ray_budget(lamps.size())) {
     for (const Lamp& lamp : lamps.all()) {
@@ -91,6 +98,8 @@ class PathKernel {
         at.geometric_normal = -at.geometric_normal;
         at.shading_normal = -at.shading_normal;
       }
+      if constexpr (!std::is_same_v<Cache, NoCache>)
+        if (cache_->read(at, hit.distance, depth + 1, throughput, sums)) return;
     }
   }
 
@@ -125,6 +134,7 @@ class PathKernel {
   const Rays& rays_;
   const Lamps& lamps_;
   LampPicker picker_;
+  [[maybe_unused]] Cache* cache_;
   int bounces_;
   RayBudget budget_;
   std::vector<uint8_t> wanted_;  ///< per lamp; which are sampled never depends on it, so bits stay
@@ -133,8 +143,8 @@ class PathKernel {
 
 /// All samples of one receiver, in batches; shared by the solver and the benchmark that replays its rays.
 /// @param out  one per group
-template <class Rays>
-void solve_receiver(PathKernel<Rays>& kernel, const Footprint& receiver, const BakeParams& params,
+template <class Rays, class Cache>
+void solve_receiver(PathKernel<Rays, Cache>& kernel, const Footprint& receiver, const BakeParams& params,
                     std::span<GroupValue> out) {
   const std::size_t groups = out.size();
   const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "solve/path.h"
+#include "solve/photon.h"
 
 namespace sconce {
 
@@ -10,6 +11,8 @@ std::span<const SolverRow> solvers() {
   static constexpr std::array kRows{
       SolverRow{"path", "unbiased path tracing with next-event estimation, all groups in one pass",
                 &make_path_solver},
+      SolverRow{"photon", "photon map with final gather: one map and one set of rays for all groups",
+                &make_photon_solver},
   };
   return kRows;
 }
