@@ -18,6 +18,7 @@ struct BakeParams {
   int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
   int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
+  int cloud = 0;     ///< gather samples of the cached solvers; 0 = chosen by them
   double noise = 0;  ///< stop a receiver early when its relative standard error falls below; 0 = never
 };
 
@@ -59,7 +60,7 @@ struct SolverRow {
                                      const Progress& progress);
 };
 
-/// path; in this order.
+/// radiosity, path; in this order.
 std::span<const SolverRow> solvers();
 /// @throws UsageError naming the choices
 const SolverRow& find_solver(std::string_view name);
