@@ -40,19 +40,25 @@ void add(const PhotonMap& map, const PhotonMap::Density& density, const Rgb& thr
 /// The map as a path reads it. One per thread.
 class MapReader {
  public:
-  MapReader(const PhotonMap& map, int bounces) : map_(map), bounces_(bounces) {}
+  static constexpr uint32_t kRaysPerPoint = 1;
 
-  bool read(const SurfacePoint& at, float distance, uint32_t reflections, const Rgb& throughput,
-            std::span<double> sums) {
-    PhotonMap::Query query{at.position, at.geometric_normal, kGathered};
-    if (bounces_ >= 0) query.most_reflections = static_cast<uint32_t>(bounces_) - reflections;
+  MapReader(const World& world, const PhotonMap& map, int bounces)
+      : world_(world), map_(map), bounces_(bounces) {}
+
+  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, std::span<double> sums) {
+    const Vec3 normal = world_.face_normals[hit.triangle];
+    PhotonMap::Query query{world_.position(hit.triangle, hit.barycentric), hit.back ? -normal : normal,
+                           kGathered};
+    if (bounces_ >= 0) query.most_reflections = static_cast<uint32_t>(bounces_) - depth - 1;
     map_.density(query, density_);
-    if (density_.sparse || density_.offset > kLopsided || distance < kShort * density_.radius) return false;
+    if (density_.sparse || density_.offset > kLopsided || hit.distance < kShort * density_.radius)
+      return false;
     add(map_, density_, throughput, sums);
     return true;
   }
 
  private:
+  const World& world_;
   const PhotonMap& map_;
   int bounces_;
   PhotonMap::Density density_;
@@ -70,10 +76,9 @@ class PhotonSolver final : public Solver {
              photon_count(context, params), params.seed, progress) {}
 
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
-    MapReader reader(map_, params_.bounces);
     PathKernel<Tracer, MapReader> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
                                          params_.final_gather ? params_.bounces : 0, context_.wanted,
-                                         &reader);
+                                         MapReader(context_.world, map_, params_.bounces));
     solve_receiver(kernel, receiver, params_, out);
     if (!params_.final_gather && params_.bounces != 0) add_indirect(receiver, out);
   }

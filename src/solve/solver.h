@@ -18,6 +18,7 @@ struct BakeParams {
   int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
   int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
+  int cloud = 0;            ///< radiosity solver: gather samples; 0 = chosen by it
   double noise = 0;         ///< stop a receiver early when its relative standard error falls below; 0 = never
   std::size_t photons = 0;  ///< photon solver: emitted by all lamps together; 0 = by the number of texels
   bool final_gather = true;  ///< photon solver: rays read the map; false = the receiver itself does
@@ -61,7 +62,7 @@ struct SolverRow {
                                      const Progress& progress);
 };
 
-/// path, photon; in this order.
+/// radiosity, path, photon; in this order.
 std::span<const SolverRow> solvers();
 /// @throws UsageError naming the choices
 const SolverRow& find_solver(std::string_view name);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gather/cloud.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "core/sobol.h"
+#include "gather/visits.h"
+
+namespace sconce {
+
+namespace {
+
+/// Sides whose normals point the same way along the same axis, then a space-filling curve: neighbours in this
+/// order are mostly neighbours on a surface.
+uint64_t curve_key(const Bounds& bounds, const SurfacePoint& p) {
+  const Vec3 n = p.geometric_normal, a = glm::abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  uint64_t key = static_cast<uint64_t>(2 * axis + (n[axis] < 0 ? 1 : 0)) << 60;
+  const float scale = 1048575.0f / std::max(1e-6f, bounds.diagonal());
+  for (int c = 0; c < 3; ++c) {
+    const auto v = static_cast<uint64_t>(std::max(0.0f, (p.position[c] - bounds.lo[c]) * scale));
+    for (int b = 0; b < 20; ++b) key |= (v >> b & 1) << (3 * b + c);
+  }
+  return key;
+}
+
+/// Cells that systematic sampling along the curve picks, about `count`, each at most once.
+std::vector<uint32_t> pick_seeds(const World& world, const SurfaceCells& cells,
+                                 std::span<const float> weights, uint32_t seed) {
+  std::vector<uint64_t> keys(cells.size());
+  parallel_for(cells.size(), 4096, [&](std::size_t c) {
+    keys[c] = curve_key(world.bounds, cells.middle(world, static_cast<uint32_t>(c)));
+  });
+  std::vector<uint32_t> order(cells.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
+  std::vector<uint32_t> seeds;
+  double sum = 0, next = static_cast<double>(detail::to_unit(mix32(seed, 0x636c6f75u)));
+  for (const uint32_t c : order) {
+    sum += static_cast<double>(weights[c]);
+    if (sum <= next) continue;
+    seeds.push_back(c);
+    next = std::max(next + 1, std::floor(sum - next) + next);
+  }
+  if (seeds.empty() && !order.empty()) seeds.push_back(order.front());
+  return seeds;
+}
+
+}  // namespace
+
+GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& tracer,
+                         const TexelReceivers* receivers, const CloudParams& params, const Progress& progress)
+    : world_(&world) {
+  progress.at("gather cloud", 0, 3);
+  const std::vector<double> areas = side_areas(scene, world);
+  std::vector<double> mass = areas;
+  if (receivers != nullptr)
+    mass = visit_shares(scene, world, tracer, *receivers, 8 * params.samples, params.seed);
+  cells_ = make_cells(scene, world, mass, params.samples);
+  progress.check();
+
+  const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
+  std::vector<float> weights(cells_.size()), spacings(cells_.size());
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const uint32_t side = cells_.sides[c];
+    const double samples = static_cast<double>(params.samples) * mass[side] / total;
+    const double n = cells_.cut[side / 2];
+    weights[c] = static_cast<float>(samples / (n * n));
+    spacings[c] = static_cast<float>(std::sqrt(areas[side] / std::max(samples, 1e-9)));
+  }
+  progress.at("gather cloud", 1, 3);
+  ownership_ = assign_owners(world, tracer, cells_, pick_seeds(world, cells_, weights, params.seed), spacings,
+                             weights);
+  progress.check();
+  progress.at("gather cloud", 2, 3);
+
+  const std::size_t n = ownership_.seeds.size();
+  first_.assign(n + 1, 0);
+  for (const Owner& owner : ownership_.owners) ++first_[owner.sample + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  owned_.resize(cells_.size());
+  std::vector<uint32_t> cursor(first_.begin(), first_.end() - 1);
+  double sure = 0, all = 0;
+  for (uint32_t c = 0; c < cells_.size(); ++c) {
+    owned_[cursor[ownership_.owners[c].sample]++] = c;
+    const auto area = static_cast<double>(cells_.area(world, c));
+    all += area;
+    if (ownership_.owners[c].sure) sure += area;
+  }
+  sure_share_ = all > 0 ? sure / all : 0;
+  areas_.resize(n);
+  albedos_.resize(n);
+  parallel_for(n, 64, [&](std::size_t i) {
+    constexpr uint32_t kPoints = 4;
+    double area = 0;
+    Rgb albedo;
+    for (uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+      const uint32_t cell = owned_[k];
+      const float size = cells_.area(world, cell);
+      const auto [a, b, c] = cells_.corners(cell);
+      area += static_cast<double>(size);
+      for (uint32_t s = 0; s < kPoints; ++s) {
+        const Vec2 w = square_to_triangle(sobol_pair(s, 0, mix32(params.seed, cell)));
+        albedo += size / kPoints *
+                  shade(scene, world, cells_.sides[cell] / 2, a + w.x * (b - a) + w.y * (c - a)).base_color;
+      }
+    }
+    areas_[i] = static_cast<float>(area);
+    albedos_[i] = area > 0 ? albedo / static_cast<float>(area) : Rgb();
+  });
+  progress.at("gather cloud", 3, 3);
+}
+
+Footprint GatherCloud::footprint(std::size_t i) const {
+  Footprint result;
+  result.kind = ReceiverKind::gather;
+  result.id = static_cast<uint32_t>(i);
+  double sum = 0;
+  for (uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+    result.pieces.push_back(cells_.piece(*world_, owned_[k]));
+    sum += static_cast<double>(cells_.area(*world_, owned_[k]));
+    result.pieces.back().cumulative = static_cast<float>(sum);
+  }
+  result.area = static_cast<float>(sum);
+  for (FootprintPiece& piece : result.pieces) piece.cumulative /= result.area;
+  result.pieces.back().cumulative = 1;
+  return result;
+}
+
+}  // namespace sconce

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gather/rows.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/parallel.h"
+#include "core/sobol.h"
+
+namespace sconce {
+
+SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
+                     const Progress& progress) {
+  constexpr std::size_t kBlock = 256;
+  const std::size_t blocks = (cloud.size() + kBlock - 1) / kBlock;
+  std::vector<SparseRows> parts(blocks);
+  std::atomic<uint64_t> done = 0;
+  parallel_for(blocks, 1, [&](std::size_t block) {
+    progress.check();
+    SparseRows& part = parts[block];
+    std::vector<uint32_t> met;
+    for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i) {
+      const Footprint footprint = cloud.footprint(i);
+      const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
+      met.clear();
+      for (uint32_t r = 0; r < static_cast<uint32_t>(rays); ++r) {
+        const SurfacePoint at = footprint.sample(sobol_pair(r, 0, stream));
+        const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(r, 1, stream)));
+        if (!(glm::dot(direction, at.geometric_normal) > 0)) continue;
+        const Hit hit =
+            tracer.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
+        if (hit && cloud.reflects(hit)) met.push_back(cloud.owner(hit).sample);
+      }
+      std::sort(met.begin(), met.end());
+      for (std::size_t k = 0; k < met.size();) {
+        std::size_t end = k;
+        while (end < met.size() && met[end] == met[k]) ++end;
+        part.columns.push_back(met[k]);
+        part.counts.push_back(static_cast<uint16_t>(end - k));
+        k = end;
+      }
+      part.first.push_back(part.columns.size());
+    }
+    progress.at("gather rows", ++done, blocks);
+  });
+  SparseRows result;
+  result.unit = 1.0f / static_cast<float>(rays);
+  for (SparseRows& part : parts) {
+    const uint64_t base = result.columns.size();
+    for (std::size_t i = 1; i < part.first.size(); ++i) result.first.push_back(base + part.first[i]);
+    result.columns.insert(result.columns.end(), part.columns.begin(), part.columns.end());
+    result.counts.insert(result.counts.end(), part.counts.begin(), part.counts.end());
+    part = {};
+  }
+  return result;
+}
+
+namespace {
+
+/// next = add + K (rho light), `width` numbers per sample, three channels in turn.
+void sweep(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> add,
+           std::vector<float>& light, std::vector<float>& exitance) {
+  const std::size_t n = cloud.size(), width = light.size() / n;
+  parallel_for(n, 512, [&](std::size_t i) {
+    const Rgb& albedo = cloud.albedo(i);
+    for (std::size_t c = i * width; c < (i + 1) * width; c += 3) {
+      exitance[c] = albedo.r * light[c];
+      exitance[c + 1] = albedo.g * light[c + 1];
+      exitance[c + 2] = albedo.b * light[c + 2];
+    }
+  });
+  parallel_for(n, 64, [&](std::size_t i) {
+    rows.apply(i, exitance, std::span(light).subspan(i * width, width));
+    if (!add.empty())
+      for (std::size_t c = i * width; c < (i + 1) * width; ++c) light[c] += add[c];
+  });
+}
+
+}  // namespace
+
+int enough_bounces(const SparseRows& rows, const GatherCloud& cloud, double tolerance) {
+  constexpr int kMost = 1000;
+  std::vector<float> light(3 * cloud.size(), 1.0f), exitance(light.size());
+  for (int bounces = 0; bounces < kMost; ++bounces) {
+    double left[3] = {0, 0, 0}, area = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      area += static_cast<double>(cloud.area(i));
+      for (std::size_t c = 0; c < 3; ++c)
+        left[c] += static_cast<double>(cloud.area(i)) * static_cast<double>(light[3 * i + c]);
+    }
+    if (std::max({left[0], left[1], left[2]}) <= tolerance * area) return bounces;
+    sweep(rows, cloud, {}, light, exitance);
+  }
+  return kMost;
+}
+
+std::vector<float> bounce(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> direct,
+                          int bounces, const Progress& progress) {
+  std::vector<float> light(direct.begin(), direct.end()), exitance(direct.size());
+  for (int i = 0; i < bounces; ++i) {
+    progress.check();
+    progress.at("bounces", static_cast<uint64_t>(i), static_cast<uint64_t>(bounces));
+    sweep(rows, cloud, direct, light, exitance);
+  }
+  return light;
+}
+
+}  // namespace sconce
