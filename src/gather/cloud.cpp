@@ -76,41 +76,54 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
   progress.check();
   progress.at("gather cloud", 2, 3);
 
+  cell_albedos_.resize(cells_.size());
+  parallel_for(cells_.size(), 1024, [&](std::size_t i) {
+    constexpr uint32_t kPoints = 4;
+    const auto cell = static_cast<uint32_t>(i);
+    const auto [a, b, c] = cells_.corners(cell);
+    for (uint32_t s = 0; s < kPoints; ++s) {
+      const Vec2 w = square_to_triangle(sobol_pair(s, 0, mix32(params.seed, cell)));
+      cell_albedos_[i] +=
+          shade(scene, world, cells_.sides[i] / 2, a + w.x * (b - a) + w.y * (c - a)).base_color;
+    }
+    cell_albedos_[i] *= 1.0f / kPoints;
+  });
+  collect();
+  progress.at("gather cloud", 3, 3);
+}
+
+void GatherCloud::collect() {
   const std::size_t n = ownership_.seeds.size();
   first_.assign(n + 1, 0);
-  for (const Owner& owner : ownership_.owners) ++first_[owner.sample + 1];
+  for (const Owner& owner : ownership_.owners)
+    if (owner.trust != Trust::guess) ++first_[owner.sample + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  owned_.resize(cells_.size());
+  owned_.resize(first_.back());
+  areas_.assign(n, 0);
+  albedos_.assign(n, Rgb());
   std::vector<uint32_t> cursor(first_.begin(), first_.end() - 1);
-  double sure = 0, all = 0;
+  double all = 0;
   for (uint32_t c = 0; c < cells_.size(); ++c) {
-    owned_[cursor[ownership_.owners[c].sample]++] = c;
-    const auto area = static_cast<double>(cells_.area(world, c));
-    all += area;
-    if (ownership_.owners[c].sure) sure += area;
+    const Owner& owner = ownership_.owners[c];
+    const float area = cells_.area(*world_, c);
+    shares_[static_cast<std::size_t>(owner.trust)] += static_cast<double>(area);
+    all += static_cast<double>(area);
+    if (owner.trust == Trust::guess) continue;
+    owned_[cursor[owner.sample]++] = c;
+    areas_[owner.sample] += area;
+    albedos_[owner.sample] += area * cell_albedos_[c];
   }
-  sure_share_ = all > 0 ? sure / all : 0;
-  areas_.resize(n);
-  albedos_.resize(n);
-  parallel_for(n, 64, [&](std::size_t i) {
-    constexpr uint32_t kPoints = 4;
-    double area = 0;
-    Rgb albedo;
-    for (uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-      const uint32_t cell = owned_[k];
-      const float size = cells_.area(world, cell);
-      const auto [a, b, c] = cells_.corners(cell);
-      area += static_cast<double>(size);
-      for (uint32_t s = 0; s < kPoints; ++s) {
-        const Vec2 w = square_to_triangle(sobol_pair(s, 0, mix32(params.seed, cell)));
-        albedo += size / kPoints *
-                  shade(scene, world, cells_.sides[cell] / 2, a + w.x * (b - a) + w.y * (c - a)).base_color;
-      }
-    }
-    areas_[i] = static_cast<float>(area);
-    albedos_[i] = area > 0 ? albedo / static_cast<float>(area) : Rgb();
-  });
-  progress.at("gather cloud", 3, 3);
+  for (double& share : shares_) share /= std::max(all, 1e-30);
+  for (std::size_t i = 0; i < n; ++i) albedos_[i] *= 1 / std::max(areas_[i], 1e-30f);
+}
+
+Footprint GatherCloud::cell_footprint(uint32_t cell) const {
+  Footprint result;
+  result.kind = ReceiverKind::gather;
+  result.id = cell;
+  result.pieces.push_back(cells_.piece(*world_, cell));
+  result.area = cells_.area(*world_, cell);
+  return result;
 }
 
 Footprint GatherCloud::footprint(std::size_t i) const {

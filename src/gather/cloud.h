@@ -21,30 +21,39 @@ class GatherCloud {
               const CloudParams& params, const Progress& progress = {});
 
   std::size_t size() const { return areas_.size(); }
-  /// Sample that speaks for a hit; only for sides that reflect. O(1).
-  Owner owner(const Hit& hit) const {
-    return ownership_.owners[cells_.at(side_index(hit.triangle, hit.back), hit.barycentric)];
-  }
+  std::size_t cells() const { return cells_.size(); }
   bool reflects(const Hit& hit) const { return cells_.reflects(side_index(hit.triangle, hit.back)); }
-  /// m2; they add up to the area of all sides that reflect
+  /// Cell of a hit; only for sides that reflect. O(1), as is its owner.
+  uint32_t cell(const Hit& hit) const {
+    return cells_.at(side_index(hit.triangle, hit.back), hit.barycentric);
+  }
+  const Owner& owner(uint32_t cell) const { return ownership_.owners[cell]; }
+  /// A cell as a receiver.
+  Footprint cell_footprint(uint32_t cell) const;
+  /// Mean diffuse reflectance (metals: base colour, as in bounces) of a cell.
+  const Rgb& cell_albedo(uint32_t cell) const { return cell_albedos_[cell]; }
+
+  /// m2, of the cells that a sample speaks for
   float area(std::size_t i) const { return areas_[i]; }
-  /// Mean diffuse reflectance over the sample's cells (metals: base colour, as in bounces).
+  /// Mean diffuse reflectance over these cells.
   const Rgb& albedo(std::size_t i) const { return albedos_[i]; }
   /// A sample as a receiver: its cells.
   Footprint footprint(std::size_t i) const;
   /// Distance between samples around sample i, m.
   float spacing(std::size_t i) const { return std::sqrt(areas_[i]); }
-  /// Share of the surface, by area, whose cells are sure of their sample.
-  double sure_share() const { return sure_share_; }
+  /// Share of the surface, by area, whose cells have this trust in their sample.
+  double share(Trust trust) const { return shares_[static_cast<std::size_t>(trust)]; }
 
  private:
+  void collect();
+
   const World* world_;
   SurfaceCells cells_;
   Ownership ownership_;
-  std::vector<uint32_t> first_, owned_;  ///< CSR: cells of each sample
+  std::vector<uint32_t> first_, owned_;  ///< CSR: cells that each sample speaks for
   std::vector<float> areas_;
-  std::vector<Rgb> albedos_;
-  double sure_share_ = 0;
+  std::vector<Rgb> albedos_, cell_albedos_;
+  std::array<double, 3> shares_{};
 };
 
 }  // namespace sconce

@@ -70,16 +70,16 @@ class Assigner {
     return glm::distance(cell.position, sample.position) <= 3 * spacing && same_surface(cell, sample) &&
            sees(tracer_, cell, sample);
   }
-  /// Every corner of the cell sees the sample too.
-  bool wholly_seen(uint32_t cell, const SurfacePoint& sample) const {
+  /// Whether every corner of a cell that fits sees the sample too.
+  Trust trust(uint32_t cell, const SurfacePoint& sample) const {
     const SurfacePoint middle = cells_.middle(world_, cell);
     const FootprintPiece piece = cells_.piece(world_, cell);
     for (const Vec3& corner : {piece.p0, piece.p1, piece.p2}) {
       SurfacePoint p = middle;
       p.position = corner + 0.1f * (middle.position - corner);
-      if (!sees(tracer_, p, sample)) return false;
+      if (!sees(tracer_, p, sample)) return Trust::middle;
     }
-    return true;
+    return Trust::whole;
   }
   SurfacePoint middle(uint32_t cell) const { return cells_.middle(world_, cell); }
   float spacing(uint32_t cell) const { return spacings_[cell]; }
@@ -129,7 +129,7 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
     for (std::size_t k = 0; k < count; ++k) {
       const SurfacePoint& sample = samples[found[k]];
       if (seeds[found[k]] == cell || assigner.fits(at, sample, spacings[seeds[found[k]]])) {
-        result.owners[c] = {found[k], assigner.wholly_seen(cell, sample)};
+        result.owners[c] = {found[k], assigner.trust(cell, sample)};
         return;
       }
       if (guess == kOrphan && glm::dot(at.shading_normal, sample.shading_normal) > 0 &&
@@ -140,7 +140,7 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
       guess = kOrphan;
     else if (guess == kOrphan && count > 0)
       guess = found[0];
-    result.owners[c] = {guess, false};
+    result.owners[c] = {guess, Trust::guess};
   });
 
   // Orphans become samples, in order; neighbours in the order are often neighbours in space.
@@ -152,11 +152,11 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
          --k) {
       const SurfacePoint& sample = samples[added[k - 1]];
       if (assigner.fits(at, sample, spacings[seeds[added[k - 1]]]))
-        result.owners[cell] = {added[k - 1], assigner.wholly_seen(cell, sample)};
+        result.owners[cell] = {added[k - 1], assigner.trust(cell, sample)};
     }
     if (result.owners[cell].sample != kOrphan) continue;
     const auto index = static_cast<uint32_t>(seeds.size());
-    result.owners[cell] = {index, assigner.wholly_seen(cell, at)};
+    result.owners[cell] = {index, assigner.trust(cell, at)};
     seeds.push_back(cell);
     samples.push_back(at);
     added.push_back(index);

@@ -9,11 +9,17 @@
 
 namespace sconce {
 
+/// How far a sample's light is the cell's.
+enum class Trust : uint8_t {
+  guess,   ///< no sample speaks for the cell: this one is merely near
+  middle,  ///< the cell's middle sees the sample along one continuous surface
+  whole,   ///< so do its corners
+};
+
 /// A cell's gather sample.
 struct Owner {
   uint32_t sample = 0;
-  /// The whole cell sees its sample along one continuous surface, so the sample's light is the cell's.
-  bool sure = false;
+  Trust trust = Trust::guess;
 };
 
 struct Ownership {

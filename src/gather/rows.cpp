@@ -9,11 +9,15 @@
 
 namespace sconce {
 
-SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
-                     const Progress& progress) {
+Gathered gather(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
+                std::span<const float> direct, const Progress& progress) {
   constexpr std::size_t kBlock = 256;
   const std::size_t blocks = (cloud.size() + kBlock - 1) / kBlock;
   std::vector<SparseRows> parts(blocks);
+  const std::size_t width = direct.size() / std::max<std::size_t>(1, cloud.cells());
+  Gathered result;
+  result.rows.unit = 1.0f / static_cast<float>(rays);
+  result.once.assign(width * cloud.size(), 0.0f);
   std::atomic<uint64_t> done = 0;
   parallel_for(blocks, 1, [&](std::size_t block) {
     progress.check();
@@ -22,6 +26,7 @@ SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, u
     for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i) {
       const Footprint footprint = cloud.footprint(i);
       const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
+      float* once = result.once.data() + width * i;
       met.clear();
       for (uint32_t r = 0; r < static_cast<uint32_t>(rays); ++r) {
         const SurfacePoint at = footprint.sample(sobol_pair(r, 0, stream));
@@ -29,8 +34,18 @@ SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, u
         if (!(glm::dot(direction, at.geometric_normal) > 0)) continue;
         const Hit hit =
             tracer.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
-        if (hit && cloud.reflects(hit)) met.push_back(cloud.owner(hit).sample);
+        if (!hit || !cloud.reflects(hit)) continue;
+        const uint32_t cell = cloud.cell(hit);
+        met.push_back(cloud.owner(cell).sample);
+        const Rgb& albedo = cloud.cell_albedo(cell);
+        for (std::size_t c = 0; c < width; c += 3) {
+          const float* light = direct.data() + width * cell + c;
+          once[c] += albedo.r * light[0];
+          once[c + 1] += albedo.g * light[1];
+          once[c + 2] += albedo.b * light[2];
+        }
       }
+      for (std::size_t c = 0; c < width; ++c) once[c] *= result.rows.unit;
       std::sort(met.begin(), met.end());
       for (std::size_t k = 0; k < met.size();) {
         std::size_t end = k;
@@ -43,13 +58,12 @@ SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, u
     }
     progress.at("gather rows", ++done, blocks);
   });
-  SparseRows result;
-  result.unit = 1.0f / static_cast<float>(rays);
+  SparseRows& rows = result.rows;
   for (SparseRows& part : parts) {
-    const uint64_t base = result.columns.size();
-    for (std::size_t i = 1; i < part.first.size(); ++i) result.first.push_back(base + part.first[i]);
-    result.columns.insert(result.columns.end(), part.columns.begin(), part.columns.end());
-    result.counts.insert(result.counts.end(), part.counts.begin(), part.counts.end());
+    const uint64_t base = rows.columns.size();
+    for (std::size_t i = 1; i < part.first.size(); ++i) rows.first.push_back(base + part.first[i]);
+    rows.columns.insert(rows.columns.end(), part.columns.begin(), part.columns.end());
+    rows.counts.insert(rows.counts.end(), part.counts.begin(), part.counts.end());
     part = {};
   }
   return result;
@@ -94,13 +108,14 @@ int enough_bounces(const SparseRows& rows, const GatherCloud& cloud, double tole
   return kMost;
 }
 
-std::vector<float> bounce(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> direct,
+std::vector<float> bounce(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> once,
                           int bounces, const Progress& progress) {
-  std::vector<float> light(direct.begin(), direct.end()), exitance(direct.size());
-  for (int i = 0; i < bounces; ++i) {
+  std::vector<float> light(once.size()), exitance(once.size());
+  if (bounces > 0) light.assign(once.begin(), once.end());
+  for (int i = 1; i < bounces; ++i) {
     progress.check();
     progress.at("bounces", static_cast<uint64_t>(i), static_cast<uint64_t>(bounces));
-    sweep(rows, cloud, direct, light, exitance);
+    sweep(rows, cloud, once, light, exitance);
   }
   return light;
 }

@@ -7,20 +7,31 @@
 
 namespace sconce {
 
-/// Rows of K by cosine-distributed rays from all over a sample's cells: K_ij = share of the rays of i that
-/// end on j (methods.md 2.4, "hemisphere gathering"). Scalar: albedo stays outside. Row sums are the covered
-/// share of the hemisphere.
-SparseRows make_rows(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
-                     const Progress& progress = {});
+/// What the samples gather.
+struct Gathered {
+  /// K_ij = share of the rays of i that end on j. Scalar: albedo stays outside. Row sums are the covered
+  /// share of the hemisphere.
+  SparseRows rows;
+  /// Illuminance after one reflection, samples x 3 groups, lux: from the light on cells, which are finer than
+  /// samples, so that small bright spots stay where they are.
+  std::vector<float> once;
+};
+
+/// Rows of K by cosine-distributed rays from all over a sample's cells (methods.md 2.4, "hemisphere
+/// gathering").
+/// @param direct  on the cells, cells x 3 groups, lux; or none
+Gathered gather(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
+                std::span<const float> direct, const Progress& progress = {});
 
 /// Number of bounces after which less than `tolerance` of any light is still under way: a property of the
 /// scene alone, so that no lamp's result depends on another lamp.
 int enough_bounces(const SparseRows& rows, const GatherCloud& cloud, double tolerance = 1e-4);
 
-/// Illuminance on the samples after so many reflections: E = E_direct + K (rho E), by Jacobi sweeps, all
-/// groups at once.
-/// @param direct  samples x 3 groups, lux
-std::vector<float> bounce(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> direct,
+/// Illuminance on the samples by light that was reflected 1 to `bounces` times: E = E_once + K (rho E), by
+/// Jacobi sweeps, all groups at once.
+/// @param once  samples x 3 groups, lux
+/// @return as `once`, and for no bounces black
+std::vector<float> bounce(const SparseRows& rows, const GatherCloud& cloud, std::span<const float> once,
                           int bounces, const Progress& progress = {});
 
 }  // namespace sconce

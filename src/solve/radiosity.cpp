@@ -11,7 +11,7 @@ namespace sconce {
 
 namespace {
 
-constexpr int kDirectSamples = 64;         // per gather sample
+constexpr uint32_t kDirectSamples = 4;     // per cell
 constexpr std::size_t kRowRays = 1 << 24;  // in all
 constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
 
@@ -20,19 +20,22 @@ struct RadiosityCache {
   static constexpr uint32_t kRaysPerPoint = 4;
 
   const GatherCloud* cloud = nullptr;
-  const std::vector<float>* first = nullptr;   ///< samples x 3 groups: light at the receiver's own hits
-  const std::vector<float>* second = nullptr;  ///< one bounce less: at the hits of rays that went on once
-  bool all_bounces = false;
+  const float* direct = nullptr;  ///< cells x 3 groups
+  /// samples x 3 groups: light at the ends of receivers' own rays; at those of rays that went on once
+  const float *first = nullptr, *second = nullptr;
+  int bounces = -1;
 
   bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, std::span<double> sums) const {
-    if (depth >= 2 && !all_bounces) return false;
-    const Owner owner = cloud->owner(hit);
-    if (!owner.sure || hit.distance < kShort * cloud->spacing(owner.sample)) return false;
-    const float* illuminance = (depth == 0 ? first : second)->data() + sums.size() * owner.sample;
+    if (depth >= 2 && bounces >= 0) return false;
+    const uint32_t cell = cloud->cell(hit);
+    const Owner owner = cloud->owner(cell);
+    if (owner.trust != Trust::whole || hit.distance < kShort * cloud->spacing(owner.sample)) return false;
+    const float* light = direct + sums.size() * cell;
+    const float* more = (depth == 0 ? first : second) + sums.size() * owner.sample;
     for (std::size_t g = 0; g < sums.size(); g += 3) {
-      sums[g] += static_cast<double>(throughput.r * illuminance[g]);
-      sums[g + 1] += static_cast<double>(throughput.g * illuminance[g + 1]);
-      sums[g + 2] += static_cast<double>(throughput.b * illuminance[g + 2]);
+      sums[g] += static_cast<double>(throughput.r * (light[g] + more[g]));
+      sums[g + 1] += static_cast<double>(throughput.g * (light[g + 1] + more[g + 1]));
+      sums[g + 2] += static_cast<double>(throughput.b * (light[g + 2] + more[g + 2]));
     }
     return true;
   }
@@ -51,52 +54,53 @@ class RadiositySolver final : public Solver {
       cloud.samples = 2048;
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.receivers,
                                            cloud, progress);
+    direct_ = direct_light(progress);
     const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
-    const SparseRows rows = make_rows(context.tracer, *cloud_, rays, params.seed, progress);
-    const std::vector<float> direct = direct_light(progress);
+    const Gathered gathered = gather(context.tracer, *cloud_, rays, params.seed, direct_, progress);
+    const auto indirect = [&](int bounces) {
+      return bounce(gathered.rows, *cloud_, gathered.once, bounces, progress);
+    };
     if (params.bounces < 0) {
-      first_ = bounce(rows, *cloud_, direct, enough_bounces(rows, *cloud_), progress);
+      first_ = indirect(enough_bounces(gathered.rows, *cloud_));
     } else {
-      second_ = bounce(rows, *cloud_, direct, std::max(0, params.bounces - 2), progress);
-      first_ = bounce(rows, *cloud_, direct, params.bounces - 1, progress);
+      first_ = indirect(params.bounces - 1);
+      second_ = indirect(params.bounces - 2);
     }
   }
 
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
     RadiosityCache cache;
     cache.cloud = cloud_.get();
-    cache.all_bounces = params_.bounces < 0;
-    cache.first = &first_;
-    cache.second = cache.all_bounces ? &first_ : &second_;
+    cache.bounces = params_.bounces;
+    cache.direct = direct_.data();
+    cache.first = first_.data();
+    cache.second = params_.bounces < 0 ? first_.data() : second_.data();
     PathKernel<Tracer, RadiosityCache> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
                                               params_.bounces, context_.wanted, cache);
     solve_receiver(kernel, receiver, params_, out);
   }
 
  private:
-  /// Direct illuminance on the gather samples, mean over each one's cells.
+  /// Direct illuminance on the cloud's cells, cells x 3 groups.
   std::vector<float> direct_light(const Progress& progress) const {
-    const std::size_t groups = context_.scene.groups.size();
-    std::vector<float> direct(3 * groups * cloud_->size());
-    BakeParams params;
-    params.samples = kDirectSamples;
-    params.bounces = 0;
-    params.seed = mix32(params_.seed, 0x64697265u);
+    const std::size_t width = 3 * context_.scene.groups.size();
+    std::vector<float> direct(width * cloud_->cells());
+    const uint32_t seed = mix32(params_.seed, 0x64697265u);
     std::atomic<uint64_t> done = 0;
-    constexpr std::size_t kBlock = 256;
-    const std::size_t blocks = (cloud_->size() + kBlock - 1) / kBlock;
+    constexpr std::size_t kBlock = 4096;
+    const std::size_t blocks = (cloud_->cells() + kBlock - 1) / kBlock;
     parallel_for(blocks, 1, [&](std::size_t block) {
       progress.check();
       PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps, 0,
                                 context_.wanted);
-      std::vector<GroupValue> values(groups);
-      for (std::size_t i = block * kBlock; i < std::min(cloud_->size(), (block + 1) * kBlock); ++i) {
-        solve_receiver(kernel, cloud_->footprint(i), params, values);
-        for (std::size_t g = 0; g < groups; ++g) {
-          float* out = &direct[3 * (i * groups + g)];
-          out[0] = values[g].illuminance.r, out[1] = values[g].illuminance.g,
-          out[2] = values[g].illuminance.b;
-        }
+      std::vector<double> sums(width);
+      for (std::size_t c = block * kBlock; c < std::min(cloud_->cells(), (block + 1) * kBlock); ++c) {
+        const auto cell = static_cast<uint32_t>(c);
+        const Footprint footprint = cloud_->cell_footprint(cell);
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (uint32_t s = 0; s < kDirectSamples; ++s) kernel.sample(footprint, mix32(seed, cell), s, sums);
+        for (std::size_t g = 0; g < width; ++g)
+          direct[width * c + g] = static_cast<float>(sums[g] / kDirectSamples);
       }
       progress.at("light on the cloud", ++done, blocks);
     });
@@ -106,7 +110,8 @@ class RadiositySolver final : public Solver {
   SolveContext context_;
   BakeParams params_;
   std::unique_ptr<GatherCloud> cloud_;  ///< null for direct light only
-  std::vector<float> first_, second_;
+  std::vector<float> direct_;           ///< on its cells
+  std::vector<float> first_, second_;   ///< reflected, on its samples
 };
 
 }  // namespace
