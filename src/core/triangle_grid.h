@@ -10,13 +10,22 @@
 namespace sconce {
 
 /// Index of the part that holds barycentric coordinates b (weights of vertices 1 and 2).
-inline uint32_t grid_part(Vec2 b, int n) {
+/// @param local  set to the barycentric coordinates on that part
+inline uint32_t grid_part(Vec2 b, int n, Vec2& local) {
+  local = b;
   if (n == 1) return 0;
   const float fx = b.x * static_cast<float>(n), fy = b.y * static_cast<float>(n);
   const int y = std::clamp(static_cast<int>(fy), 0, n - 1);
   const int x = std::clamp(static_cast<int>(fx), 0, n - 1 - y);
   const bool upper = x + y < n - 1 && (fx - static_cast<float>(x)) + (fy - static_cast<float>(y)) > 1;
+  local = Vec2(fx, fy) - Vec2(static_cast<float>(x), static_cast<float>(y));
+  if (upper) local = Vec2(1) - local;
   return static_cast<uint32_t>(y * (2 * n - y) + 2 * x + (upper ? 1 : 0));
+}
+
+inline uint32_t grid_part(Vec2 b, int n) {
+  Vec2 local;
+  return grid_part(b, n, local);
 }
 
 /// Barycentric corners of a part, wound as the triangle.

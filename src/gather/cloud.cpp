@@ -12,6 +12,8 @@ namespace sconce {
 
 namespace {
 
+constexpr std::size_t kSamplesPerPart = 16;
+
 /// Sides whose normals point the same way along the same axis, then a space-filling curve: neighbours in this
 /// order are mostly neighbours on a surface.
 uint64_t curve_key(const Bounds& bounds, const SurfacePoint& p) {
@@ -50,25 +52,30 @@ std::vector<uint32_t> pick_seeds(const World& world, const SurfaceCells& cells,
 
 }  // namespace
 
-GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& tracer,
+GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
                          const TexelReceivers* receivers, const CloudParams& params, const Progress& progress)
     : world_(&world) {
   progress.at("gather cloud", 0, 3);
-  const std::vector<double> areas = side_areas(scene, world);
-  std::vector<double> mass = areas;
-  if (receivers != nullptr)
-    mass = visit_shares(scene, world, tracer, *receivers, 8 * params.samples, params.seed);
-  cells_ = make_cells(scene, world, mass, params.samples);
+  const auto shares = [&](const SurfaceParts& parts, std::size_t rays) {
+    return visit_shares(world, tracer, lamps, receivers, parts, rays, params.seed);
+  };
+  const SurfaceParts sides = whole_sides(scene, world);
+  std::vector<double> mass(2 * world.size());
+  const std::vector<double> pilot = shares(sides, 2 * params.samples);
+  for (std::size_t s = 0; s < sides.size(); ++s) mass[sides.sides[s]] = pilot[s];
+  SurfaceParts parts = make_parts(scene, world, mass, params.samples / kSamplesPerPart);
+  mass = shares(parts, 8 * params.samples);
+  cells_ = make_cells(world, std::move(parts), mass, params.samples);
   progress.check();
 
   const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
   std::vector<float> weights(cells_.size()), spacings(cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const uint32_t side = cells_.sides[c];
-    const double samples = static_cast<double>(params.samples) * mass[side] / total;
-    const double n = cells_.cut[side / 2];
+    const uint32_t part = cells_.owner[c];
+    const double samples = static_cast<double>(params.samples) * mass[part] / total;
+    const double n = cells_.cut[part];
     weights[c] = static_cast<float>(samples / (n * n));
-    spacings[c] = static_cast<float>(std::sqrt(areas[side] / std::max(samples, 1e-9)));
+    spacings[c] = static_cast<float>(std::sqrt(cells_.parts.area(world, part) / std::max(samples, 1e-9)));
   }
   progress.at("gather cloud", 1, 3);
   ownership_ = assign_owners(world, tracer, cells_, pick_seeds(world, cells_, weights, params.seed), spacings,
@@ -84,7 +91,7 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
     for (uint32_t s = 0; s < kPoints; ++s) {
       const Vec2 w = square_to_triangle(sobol_pair(s, 0, mix32(params.seed, cell)));
       cell_albedos_[i] +=
-          shade(scene, world, cells_.sides[i] / 2, a + w.x * (b - a) + w.y * (c - a)).base_color;
+          shade(scene, world, cells_.side(cell) / 2, a + w.x * (b - a) + w.y * (c - a)).base_color;
     }
     cell_albedos_[i] *= 1.0f / kPoints;
   });

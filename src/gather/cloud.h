@@ -5,6 +5,7 @@
 #pragma once
 
 #include "gather/owners.h"
+#include "light/lamp.h"
 #include "receive/atlas.h"
 
 namespace sconce {
@@ -16,9 +17,9 @@ struct CloudParams {
 
 class GatherCloud {
  public:
-  /// Spreads samples by where gather rays from `receivers` land, or by area where there are none.
-  GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const TexelReceivers* receivers,
-              const CloudParams& params, const Progress& progress = {});
+  /// Spreads samples by where gather rays from `receivers` (may be null) and light from the lamps land.
+  GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
+              const TexelReceivers* receivers, const CloudParams& params, const Progress& progress = {});
 
   std::size_t size() const { return areas_.size(); }
   std::size_t cells() const { return cells_.size(); }

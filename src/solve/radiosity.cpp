@@ -52,8 +52,8 @@ class RadiositySolver final : public Solver {
       cloud.samples = static_cast<std::size_t>(params.cloud);
     else if (context.receivers == nullptr)
       cloud.samples = 2048;
-    cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.receivers,
-                                           cloud, progress);
+    cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
+                                           context.receivers, cloud, progress);
     direct_ = direct_light(progress);
     const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
     const Gathered gathered = gather(context.tracer, *cloud_, rays, params.seed, direct_, progress);
