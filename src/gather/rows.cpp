@@ -9,12 +9,12 @@
 
 namespace sconce {
 
-Gathered gather(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
-                std::span<const float> direct, const Progress& progress) {
+Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
+                const DirectLight& direct, const Progress& progress) {
   constexpr std::size_t kBlock = 256;
   const std::size_t blocks = (cloud.size() + kBlock - 1) / kBlock;
   std::vector<SparseRows> parts(blocks);
-  const std::size_t width = direct.size() / std::max<std::size_t>(1, cloud.cells());
+  const std::size_t width = 3 * direct.groups;
   Gathered result;
   result.rows.unit = 1.0f / static_cast<float>(rays);
   result.once.assign(width * cloud.size(), 0.0f);
@@ -23,10 +23,11 @@ Gathered gather(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32
     progress.check();
     SparseRows& part = parts[block];
     std::vector<uint32_t> met;
+    std::vector<double> sums(width), once(width);
     for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i) {
       const Footprint footprint = cloud.footprint(i);
       const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
-      float* once = result.once.data() + width * i;
+      std::fill(once.begin(), once.end(), 0.0);
       met.clear();
       for (uint32_t r = 0; r < static_cast<uint32_t>(rays); ++r) {
         const SurfacePoint at = footprint.sample(sobol_pair(r, 0, stream));
@@ -37,15 +38,22 @@ Gathered gather(const Tracer& tracer, const GatherCloud& cloud, int rays, uint32
         if (!hit || !cloud.reflects(hit)) continue;
         const uint32_t cell = cloud.cell(hit);
         met.push_back(cloud.owner(cell).sample);
+        if (width == 0) continue;
+        if (cloud.owner(cell).trust == Trust::whole) {
+          for (std::size_t c = 0; c < width; ++c)
+            sums[c] = static_cast<double>(direct.on_cells[width * cell + c]);
+        } else {
+          std::fill(sums.begin(), sums.end(), 0.0);
+          direct.at_point(surface_point(world, hit), mix32(stream, r), sums);
+        }
         const Rgb& albedo = cloud.cell_albedo(cell);
         for (std::size_t c = 0; c < width; c += 3) {
-          const float* light = direct.data() + width * cell + c;
-          once[c] += albedo.r * light[0];
-          once[c + 1] += albedo.g * light[1];
-          once[c + 2] += albedo.b * light[2];
+          once[c] += static_cast<double>(albedo.r) * sums[c];
+          once[c + 1] += static_cast<double>(albedo.g) * sums[c + 1];
+          once[c + 2] += static_cast<double>(albedo.b) * sums[c + 2];
         }
       }
-      for (std::size_t c = 0; c < width; ++c) once[c] *= result.rows.unit;
+      for (std::size_t c = 0; c < width; ++c) result.once[width * i + c] = static_cast<float>(once[c] / rays);
       std::sort(met.begin(), met.end());
       for (std::size_t k = 0; k < met.size();) {
         std::size_t end = k;
@@ -95,14 +103,19 @@ void sweep(const SparseRows& rows, const GatherCloud& cloud, std::span<const flo
 int enough_bounces(const SparseRows& rows, const GatherCloud& cloud, double tolerance) {
   constexpr int kMost = 1000;
   std::vector<float> light(3 * cloud.size(), 1.0f), exitance(light.size());
+  double before[3] = {0, 0, 0};
   for (int bounces = 0; bounces < kMost; ++bounces) {
-    double left[3] = {0, 0, 0}, area = 0;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      area += static_cast<double>(cloud.area(i));
-      for (std::size_t c = 0; c < 3; ++c)
-        left[c] += static_cast<double>(cloud.area(i)) * static_cast<double>(light[3 * i + c]);
+    double still = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double left = 0;
+      for (std::size_t i = 0; i < cloud.size(); ++i) left += static_cast<double>(light[3 * i + c]);
+      left /= static_cast<double>(cloud.size());
+      // All that is still to come, were it to fall off from now on as in the last bounce.
+      const double ratio = before[c] > 0 ? left / before[c] : 1;
+      still = std::max(still, ratio < 1 ? left / (1 - ratio) : left > 0 ? 1.0 : 0.0);
+      before[c] = left;
     }
-    if (std::max({left[0], left[1], left[2]}) <= tolerance * area) return bounces;
+    if (still <= tolerance) return bounces;
     sweep(rows, cloud, {}, light, exitance);
   }
   return kMost;

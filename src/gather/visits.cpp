@@ -31,11 +31,7 @@ class Visits {
       Vec2 local;
       std::atomic_ref(hits_[parts_.at(side, hit.barycentric, local)])
           .fetch_add(weight, std::memory_order_relaxed);
-      const float flip = hit.back ? -1.0f : 1.0f;
-      ray = leave(
-          {world_.position(hit.triangle, hit.barycentric),
-           flip * world_.normal(hit.triangle, hit.barycentric), flip * world_.face_normals[hit.triangle]},
-          sampler);
+      ray = leave(surface_point(world_, hit), sampler);
       if (ray.direction == Vec3(0)) return;
     }
   }

@@ -111,13 +111,7 @@ class PathKernel {
         throughput *= 1 / survival;
       }
       if (throughput.is_black()) return;
-      at.position = world_.position(hit.triangle, hit.barycentric);
-      at.geometric_normal = world_.face_normals[hit.triangle];
-      at.shading_normal = world_.normal(hit.triangle, hit.barycentric);
-      if (hit.back) {
-        at.geometric_normal = -at.geometric_normal;
-        at.shading_normal = -at.shading_normal;
-      }
+      at = surface_point(world_, hit);
     }
   }
 

@@ -56,7 +56,16 @@ class RadiositySolver final : public Solver {
                                            context.receivers, cloud, progress);
     direct_ = direct_light(progress);
     const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
-    const Gathered gathered = gather(context.tracer, *cloud_, rays, params.seed, direct_, progress);
+    DirectLight direct;
+    direct.groups = context.scene.groups.size();
+    direct.on_cells = direct_;
+    direct.at_point = [&](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
+      PathKernel<Tracer> kernel(context.scene, context.world, context.tracer, context.lamps, 0,
+                                context.wanted);
+      kernel.sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+    };
+    const Gathered gathered =
+        gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress);
     const auto indirect = [&](int bounces) {
       return bounce(gathered.rows, *cloud_, gathered.once, bounces, progress);
     };
@@ -81,7 +90,7 @@ class RadiositySolver final : public Solver {
   }
 
  private:
-  /// Direct illuminance on the cloud's cells, cells x 3 groups.
+  /// Direct illuminance on the cloud's cells, cells x 3 groups; black where they are not trusted wholly.
   std::vector<float> direct_light(const Progress& progress) const {
     const std::size_t width = 3 * context_.scene.groups.size();
     std::vector<float> direct(width * cloud_->cells());
@@ -96,6 +105,7 @@ class RadiositySolver final : public Solver {
       std::vector<double> sums(width);
       for (std::size_t c = block * kBlock; c < std::min(cloud_->cells(), (block + 1) * kBlock); ++c) {
         const auto cell = static_cast<uint32_t>(c);
+        if (cloud_->owner(cell).trust != Trust::whole) continue;
         const Footprint footprint = cloud_->cell_footprint(cell);
         std::fill(sums.begin(), sums.end(), 0.0);
         for (uint32_t s = 0; s < kDirectSamples; ++s) kernel.sample(footprint, mix32(seed, cell), s, sums);
