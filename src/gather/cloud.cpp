@@ -100,7 +100,7 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
 }
 
 void GatherCloud::collect() {
-  const std::size_t n = ownership_.seeds.size();
+  const std::size_t n = ownership_.samples->size();
   // Cells in part hidden from their sample (below furniture, beyond a wall) would darken it: where rays end,
   // it is not hidden. They count only for samples that have no others.
   std::vector<Trust> least(n, Trust::middle);

@@ -29,6 +29,12 @@ class GatherCloud {
     return cells_.at(side_index(hit.triangle, hit.back), hit.barycentric);
   }
   const Owner& owner(uint32_t cell) const { return ownership_.owners[cell]; }
+  /// Sample that speaks for a point of a cell, if any. O(1) where the cell's trust is whole.
+  std::optional<uint32_t> speaker(const SurfacePoint& at, uint32_t cell) const {
+    const Owner& owner = ownership_.owners[cell];
+    if (owner.trust == Trust::whole || ownership_.samples->fits(at, owner.sample)) return owner.sample;
+    return ownership_.samples->find(at);
+  }
   /// A cell as a receiver.
   Footprint cell_footprint(uint32_t cell) const;
   /// Mean diffuse reflectance (metals: base colour, as in bounces) of a cell.

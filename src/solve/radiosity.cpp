@@ -12,7 +12,7 @@ namespace sconce {
 namespace {
 
 constexpr uint32_t kDirectSamples = 4;     // per cell
-constexpr std::size_t kRowRays = 1 << 24;  // in all
+constexpr std::size_t kRowRays = 1 << 22;  // in all
 constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
 
 /// What receivers' rays read.
@@ -59,10 +59,12 @@ class RadiositySolver final : public Solver {
     DirectLight direct;
     direct.groups = context.scene.groups.size();
     direct.on_cells = direct_;
-    direct.at_point = [&](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
-      PathKernel<Tracer> kernel(context.scene, context.world, context.tracer, context.lamps, 0,
-                                context.wanted);
-      kernel.sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+    direct.make_at_point = [&]() -> DirectAtPoint {
+      auto kernel = std::make_shared<PathKernel<Tracer>>(context.scene, context.world, context.tracer,
+                                                         context.lamps, 0, context.wanted);
+      return [kernel](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
+        kernel->sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+      };
     };
     const Gathered gathered =
         gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress);
