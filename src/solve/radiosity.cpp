@@ -15,9 +15,15 @@ constexpr uint32_t kDirectSamples = 4;     // per cell
 constexpr std::size_t kRowRays = 1 << 22;  // in all
 constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
 
+/// A sample for four texels, up to where more were not seen to help.
+std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
+  if (params.cloud > 0) return static_cast<std::size_t>(params.cloud);
+  if (context.receivers == nullptr) return 2048;
+  return std::clamp<std::size_t>(context.receivers->size() / 4, 4096, 65536);
+}
+
 /// What receivers' rays read.
 struct RadiosityCache {
-  static constexpr uint32_t kRaysPerPoint = 4;
 
   const GatherCloud* cloud = nullptr;
   const float* direct = nullptr;  ///< cells x 3 groups
@@ -48,10 +54,7 @@ class RadiositySolver final : public Solver {
     if (params.bounces == 0) return;
     CloudParams cloud;
     cloud.seed = params.seed;
-    if (params.cloud > 0)
-      cloud.samples = static_cast<std::size_t>(params.cloud);
-    else if (context.receivers == nullptr)
-      cloud.samples = 2048;
+    cloud.samples = cloud_size(context, params);
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
                                            context.receivers, cloud, progress);
     direct_ = direct_light(progress);
