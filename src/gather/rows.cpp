@@ -32,7 +32,8 @@ class RowGatherer {
     const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
     std::fill(once_.begin(), once_.end(), 0.0);
     met_.clear();
-    for (uint32_t r = 0; r < rays; ++r) follow(footprint.sample(sobol_pair(r, 0, stream)), r, stream);
+    for (uint32_t r = 0; r < rays; ++r)
+      follow(cloud_.point(i, footprint, sobol_pair(r, 0, stream)), r, stream);
     for (std::size_t c = 0; c < once.size(); ++c) once[c] = static_cast<float>(once_[c] / rays);
     std::sort(met_.begin(), met_.end());
     for (std::size_t k = 0; k < met_.size();) {
