@@ -58,7 +58,7 @@ class RadiositySolver final : public Solver {
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
                                            context.receivers, cloud, progress);
     direct_ = direct_light(progress);
-    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
+    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 256));
     DirectLight direct;
     direct.groups = context.scene.groups.size();
     direct.on_cells = direct_;
