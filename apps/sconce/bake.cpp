@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app.h"
-#include "bake_job.h"
+#include "bake_report.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -62,23 +62,13 @@ BakeState open_state(const Request& request, const PreparedBake& bake, const Pro
     return BakeState::create(path, bake.header());
   }
   BakeState state = BakeState::open(path);
-  if (state.header().hash != bake.hash)
+  if (state.header().hash != bake.header().hash)
     throw Error(path.string(), "belongs to another scene or other options, so it cannot be resumed",
                 "the options of the first run, or no --resume");
   if (state.header().isa != bake.header().isa)
     throw Error(path.string(), "was begun on another instruction set (" + state.header().isa + ")",
                 bake.header().isa);
   return state;
-}
-
-bool up_to_date(const fs::path& output, const PreparedBake& bake) {
-  try {
-    const Manifest manifest = Package::open(output).manifest();
-    const auto found = manifest.facts.find("result_hash");
-    return found != manifest.facts.end() && found->second == bake.result_hash();
-  } catch (const Error&) {
-    return false;  // no package, or one to replace
-  }
 }
 
 void check_writable(const fs::path& output) {
@@ -95,37 +85,34 @@ int execute(const Request& request, const Options& options, const Progress& prog
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   check_writable(request.output);
-  const PreparedBake bake(request.job, progress);
+  // Shards are parts of a whole bake: what stands on one machine may stand on no other.
+  const bool anew = request.force || request.shard;
+  const PreparedBake bake(request.job, progress, anew ? fs::path() : request.output);
   if (request.dry_run) {
-    const AtlasReport& report = bake.atlas.report;
-    fmt::print("{}: {} triangles, {} lamps in {} groups\n", request.job.scene.string(), bake.world.size(),
-               bake.lamps.size(), bake.scene.groups.size());
-    fmt::print(
-        "atlas: {} page(s) of {} x {}, {:.4g} texels/m, {} charts, {} receivers, {} invalid, utilisation "
-        "{:.1f} %, "
-        "stretch mean {:.2f} max {:.2f}, {} triangles with a visible back\n",
-        bake.atlas.pages, bake.atlas.width, bake.atlas.height, static_cast<double>(bake.atlas.density),
-        report.charts, bake.receivers.size(), report.invalid, 100 * report.utilisation, report.stretch_mean,
-        report.stretch_max, report.twins);
+    print_plan(bake, options.json);
     return kDone;
   }
-  if (!request.force && !request.shard && up_to_date(request.output, bake)) {
+  if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
     return kDone;
   }
-  BakeState state = open_state(request, bake, progress);
-  run_bake(bake, request.shard.value_or(Shard{}), state, progress);
+  std::vector<BakeState> states;
+  if (bake.plan.count(true) > 0) {
+    states.push_back(open_state(request, bake, progress));
+    run_bake(bake, request.shard.value_or(Shard{}), states.front(), progress);
+  }
   if (request.shard) {
     if (!options.quiet)
-      fmt::print("{}: done in {:.1f} s; `sconce merge` joins the shards\n", state.path().string(), seconds());
+      fmt::print("{}: done in {:.1f} s; `sconce merge` joins the shards\n", state_path(request).string(),
+                 seconds());
     return kDone;
   }
   std::map<std::string, Provenance> provenance;
   for (const auto& [key, value] : options.provenance()) provenance[key] = {value.value, value.source};
-  const Manifest manifest = write_result(bake, std::span(&state, 1), request.output, provenance, progress);
+  const Manifest manifest = write_result(bake, states, request.output, provenance, progress);
   std::error_code ignored;
-  fs::remove(state.path(), ignored);
-  if (!options.quiet || options.json) print_result(manifest, request.output, seconds(), options.json);
+  for (const BakeState& state : states) fs::remove(state.path(), ignored);
+  if (!options.quiet || options.json) print_result(bake, manifest, request.output, seconds(), options.json);
   return kDone;
 }
 
@@ -160,8 +147,8 @@ int run_bake(int argc, const char* const* argv) {
   options.option("--seed", &seed, "random seed");
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
   options.flag("--resume", &request.resume, "continue an interrupted bake");
-  options.flag("--force", &request.force, "bake even if the package is up to date");
-  options.flag("--dry-run", &request.dry_run, "report groups and atlas, bake nothing");
+  options.flag("--force", &request.force, "solve all groups anew, whatever of the package still holds");
+  options.flag("--dry-run", &request.dry_run, "report atlas, groups and which would be solved; bake nothing");
   if (const auto code = options.parse(argc, argv)) return *code;
   job.scene = fs::absolute(scene);
   options.apply_file(fs::path(job.scene).replace_extension(".toml").string(), "side file");

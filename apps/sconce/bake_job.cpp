@@ -10,6 +10,8 @@
 #include "core/text.h"
 #include "encode/encoding.h"
 #include "import/import.h"
+#include "receive/layout.h"
+#include "solve/inputs.h"
 
 namespace sconce::app {
 
@@ -26,11 +28,10 @@ Scene load(const BakeJob& job, const Progress& progress) {
   return scene;
 }
 
-std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceivers& receivers) {
+/// Of all options that a bake's records depend on but those in made_with().
+std::string how_hash(const BakeJob& job) {
   ContentHash hash;
-  hash.text(SCONCE_VERSION).text(hash_file(job.scene));
-  for (const std::filesystem::path& file : scene_files(job.scene)) hash.text(hash_file(file));
-  hash.text(job.grouping).text(job.solver).text("flat");
+  hash.text(SCONCE_VERSION).text(job.solver).text("flat");
   hash.value(job.params.seed)
       .value(job.params.bounces)
       .value(job.params.cloud)
@@ -38,6 +39,13 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
       .value(job.params.final_gather);
   hash.value(job.atlas.page_size).value(job.atlas.max_page).value(job.atlas.density).value(job.atlas.gutter);
   hash.value(job.atlas.min_density_scale).value(job.atlas.keep_uvs).value(job.atlas.seed);
+  return hash.hex();
+}
+
+std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceivers& receivers) {
+  ContentHash hash;
+  hash.text(how_hash(job)).text(hash_file(job.scene)).text(job.grouping);
+  for (const std::filesystem::path& file : scene_files(job.scene)) hash.text(hash_file(file));
   for (const LightGroup& group : scene.groups) hash.text(group.name);
   hash.value(receivers.size());
   return hash.hex();
@@ -63,6 +71,14 @@ std::vector<std::string> group_encodings(const std::string& text, const Scene& s
     }
   }
   return result;
+}
+
+/// The texels of what is kept, or new ones.
+Atlas make_layout(const PreparedBake& bake, const Progress& progress) {
+  if (bake.plan.count(false) == 0)
+    return make_atlas(bake.scene, bake.world, bake.tracer, bake.job.atlas, progress);
+  const Package& before = *bake.plan.before();
+  return unpack_layout(before.layout(), bake.world.size(), before.path().string());
 }
 
 }  // namespace
@@ -109,27 +125,39 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
   }
 }
 
-PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress)
+PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const std::filesystem::path& before)
     : job(job_),
       scene(load(job, progress)),
       world(make_world(scene)),
+      inputs(layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa())),
+      plan(inputs, group_encodings(job.encoding, scene), before),
       tracer(scene, world),
       lamps(scene, world),
-      atlas(make_atlas(scene, world, tracer, job.atlas, progress)),
+      atlas(make_layout(*this, progress)),
       receivers(world, tracer, atlas, progress),
       hash(bake_hash(job, scene, receivers)) {
-  group_encodings(job.encoding, scene);  // a wrong name must fail before the work, not after
   find_solver(job.solver);
   for (const std::string& warning : atlas.report.warnings) progress.warn(warning);
 }
 
 BakeHeader PreparedBake::header() const {
-  return {hash,
+  // Records of some groups only, on texels laid out for an earlier bake, are no part of a whole bake.
+  ContentHash partial;
+  partial.text(hash).span(std::span<const uint8_t>(plan.wanted())).text(hash_hex(pack_layout(atlas)));
+  const std::size_t groups = plan.count(true);
+  return {groups == scene.groups.size() ? hash : partial.hex(),
           isa(),
-          static_cast<uint32_t>(scene.groups.size()),
+          static_cast<uint32_t>(groups),
           receivers.size(),
           TexelReceivers::kTile,
           job.to_json()};
+}
+
+bool PreparedBake::up_to_date() const {
+  if (plan.before() == nullptr || plan.count(true) > 0) return false;
+  const auto& facts = plan.before()->manifest().facts;
+  const auto found = facts.find("result_hash");
+  return found != facts.end() && found->second == result_hash();
 }
 
 std::string PreparedBake::result_hash() const {
@@ -137,15 +165,21 @@ std::string PreparedBake::result_hash() const {
 }
 
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
-  const SolveContext context{bake.scene, bake.world, bake.tracer, bake.lamps, &bake.atlas, &bake.receivers};
+  const std::vector<uint8_t> wanted = bake.plan.wanted();
+  const SolveContext context{bake.scene,  bake.world,      bake.tracer, bake.lamps,
+                             &bake.atlas, &bake.receivers, wanted};
   const auto solver = find_solver(bake.job.solver).prepare(context, bake.job.params, progress);
-  bake_tiles(*solver, bake.job.params, bake.receivers, shard, state, progress);
+  const std::vector<std::size_t> tiles = missing_tiles(std::span(&state, 1), bake.job.params, shard);
+  bake_tiles(*solver, bake.job.params, bake.receivers, wanted, tiles, state, progress);
 }
 
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
                       const std::filesystem::path& output, const std::map<std::string, Provenance>& options,
                       const Progress& progress) {
-  if (const auto missing = missing_tiles(states, bake.job.params); !missing.empty())
+  const BakePlan& plan = bake.plan;
+  const std::vector<std::size_t> missing =
+      states.empty() ? std::vector<std::size_t>{} : missing_tiles(states, bake.job.params);
+  if (!missing.empty() || (states.empty() && plan.count(true) > 0))
     throw Error(output.string(),
                 fmt::format("{} of {} tiles are missing, the first is {}", missing.size(),
                             states.front().tiles(), missing.front()),
@@ -196,51 +230,50 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
 
   std::vector<std::string> noise_channels;
   for (const LightGroup& group : bake.scene.groups) noise_channels.push_back(group.name);
-  for (int p = 0; p < atlas.pages; ++p)
+  std::vector<Image> old_noise;
+  for (int p = 0; p < atlas.pages; ++p) {
     contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
+    if (plan.count(false) > 0) old_noise.push_back(plan.before()->noise(p));
+  }
   const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
+  contents.kept.resize(bake.scene.groups.size());
+  uint32_t solved = 0;
   for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
     progress.at("layers", g, bake.scene.groups.size());
     progress.check();
-    Layer layer = assemble_layer(states, g, atlas, bake.receivers, areas);
+    const GroupFlux& flux = fluxes[g];
+    GroupInfo info{bake.scene.groups[g].name,
+                   flux.lumens,
+                   flux.color,
+                   flux.spread,
+                   flux.infinite,
+                   0,
+                   0,
+                   flux.lamps,
+                   bake.inputs[g]};
+    Layer layer;
+    std::size_t from = 0, stride = 1;  // of the group's channel of noise
+    if (const auto kept = plan.kept(g)) {
+      const GroupInfo& before = plan.before()->manifest().groups[*kept];
+      info.mean_lux = before.mean_lux, info.noise = before.noise;
+      contents.kept[g] = {plan.before(), *kept};
+      layer.noise = old_noise;
+      from = *kept, stride = plan.before()->manifest().groups.size();
+    } else {
+      layer = assemble_layer(states, bake.job.params, solved++, atlas, bake.receivers, areas);
+      info.mean_lux = layer.mean_lux, info.noise = layer.relative_noise;
+    }
     for (std::size_t p = 0; p < layer.noise.size(); ++p)
       for (std::size_t i = 0; i < page_texels; ++i)
-        contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i];
-    const GroupFlux& flux = fluxes[g];
-    manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite,
-                               layer.mean_lux, layer.relative_noise, flux.lamps});
+        contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i * stride + from];
+    manifest.groups.push_back(std::move(info));
     contents.layers.push_back(std::move(layer.pages));
   }
+  contents.layout = pack_layout(atlas);
   contents.scene = std::move(baked.scene);
   progress.at("write", 0, 1);
   write_package(output, std::move(contents));
   return Package::open(output, false).manifest();
-}
-
-void print_result(const Manifest& manifest, const std::filesystem::path& output, double seconds, bool json) {
-  double bytes = 0;
-  for (const LayerInfo& layer : manifest.layers) bytes += static_cast<double>(layer.bytes);
-  if (json) {
-    nlohmann::json groups = nlohmann::json::array();
-    for (const GroupInfo& group : manifest.groups)
-      groups.push_back({{"name", group.name},
-                        {"lumens", group.lumens},
-                        {"mean_lux", group.mean_lux},
-                        {"noise", group.noise}});
-    const nlohmann::json report = {{"output", output.string()}, {"seconds", seconds},
-                                   {"width", manifest.width},   {"height", manifest.height},
-                                   {"pages", manifest.pages},   {"layer_bytes", bytes},
-                                   {"groups", groups},          {"facts", manifest.facts}};
-    fmt::print("{}\n", report.dump(2));
-    return;
-  }
-  fmt::print("{}: {} group{}, {} page{} of {} x {}, {:.1f} MB of layers, {:.1f} s\n", output.string(),
-             manifest.groups.size(), manifest.groups.size() == 1 ? "" : "s", manifest.pages,
-             manifest.pages == 1 ? "" : "s", manifest.width, manifest.height, bytes / 1e6, seconds);
-  for (const GroupInfo& group : manifest.groups)
-    fmt::print("  {:<20} {:>10} {:>12.4g} lx mean  noise {:.1f} %\n", group.name,
-               group.infinite ? "-" : fmt::format("{:.4g} lm", group.lumens), group.mean_lux,
-               100 * group.noise);
 }
 
 }  // namespace sconce::app

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "package/package.h"
+#include "bake_plan.h"
 #include "scene/groups.h"
 #include "solve/bake.h"
 
@@ -32,33 +32,35 @@ struct PreparedBake {
   BakeJob job;
   Scene scene;
   World world;
+  std::vector<std::string> inputs;  ///< per group: solve/inputs.h
+  BakePlan plan;
   Tracer tracer;
   Lamps lamps;
   Atlas atlas;
   TexelReceivers receivers;
   std::string hash;  ///< of what records depend on: contract.md, "The resume hash"
 
-  PreparedBake(const BakeJob& job, const Progress& progress);
+  /// @param before  a package whose layers are kept where nothing that they depend on has changed, on its own
+  /// texels; empty or not there = all is solved
+  PreparedBake(const BakeJob& job, const Progress& progress, const std::filesystem::path& before = {});
   PreparedBake(const PreparedBake&) = delete;
   PreparedBake& operator=(const PreparedBake&) = delete;
 
   BakeHeader header() const;
-  /// Hash of the records and of how they are sampled and encoded: equal means a package need not be baked
-  /// again.
+  /// Hash of the records and of how they are sampled and encoded.
   std::string result_hash() const;
+  /// Whether the package that stands is what this bake would write.
+  bool up_to_date() const;
 };
 
-/// Bakes the tiles that `state` lacks.
+/// Bakes the tiles that `state` lacks, for the groups that are not kept.
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
 
-/// Fills gaps and writes the package. @throws Error: tiles missing, unwritable
+/// Fills gaps, takes over what is kept and writes the package. @throws Error: tiles missing, unwritable
 /// @param options  provenance for the manifest
 /// @return what was written
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
                       const std::filesystem::path& output, const std::map<std::string, Provenance>& options,
                       const Progress& progress);
-
-/// "name: 5 groups, 13 lamps, ..." lines for a person, or JSON.
-void print_result(const Manifest& manifest, const std::filesystem::path& output, double seconds, bool json);
 
 }  // namespace sconce::app

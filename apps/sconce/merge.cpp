@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include "app.h"
-#include "bake_job.h"
+#include "bake_report.h"
 #include "core/parallel.h"
 
 namespace sconce::app {
@@ -32,13 +32,16 @@ int run_merge(int argc, const char* const* argv) {
                   first.isa);
   }
   const PreparedBake bake(BakeJob::from_json(states.front().header().job, shards.front()), progress);
+  if (states.front().header().groups != bake.scene.groups.size())
+    throw Error(shards.front(), "holds only some of the light groups: `bake --resume` goes on with it",
+                "what `bake --shard` wrote");
   if (bake.hash != states.front().header().hash)
     throw Error(shards.front(), "its scene " + bake.job.scene.string() + " has changed since");
   std::map<std::string, Provenance> provenance;
   for (const auto& [key, value] : options.provenance()) provenance[key] = {value.value, value.source};
   const Manifest manifest = write_result(bake, states, output, provenance, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!options.quiet || options.json) print_result(manifest, output, seconds, options.json);
+  if (!options.quiet || options.json) print_result(bake, manifest, output, seconds, options.json);
   return kDone;
 }
 

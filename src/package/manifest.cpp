@@ -55,6 +55,7 @@ GroupInfo parse_group(const JsonValue& v) {
   group.noise = v.at("noise").number();
   const JsonValue lamps = v.at("lamps");
   for (std::size_t i = 0; i < lamps.size(); ++i) group.lamps.push_back(lamps.at(i).text());
+  group.inputs = v.text("inputs", "");
   return group;
 }
 
@@ -153,7 +154,8 @@ std::string print_manifest(const Manifest& m) {
                            {"infinite", g.infinite},
                            {"mean_lux", finite(g.mean_lux, key + "mean_lux")},
                            {"noise", finite(g.noise, key + "noise")},
-                           {"lamps", g.lamps}});
+                           {"lamps", g.lamps},
+                           {"inputs", g.inputs}});
   }
   j["layers"] = Json::array();
   for (const LayerInfo& l : m.layers)

@@ -10,7 +10,7 @@
 
 namespace sconce {
 
-inline constexpr std::string_view kManifestFile = "manifest.json";
+inline constexpr std::string_view kManifestFile = "manifest.json", kLayoutFile = "layout.bin";
 inline constexpr std::string_view kPackageFormat = "sconce-package";
 
 /// Readable JSON, keys in a fixed order. @throws Error when a number is not finite (the key is named)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct GroupInfo {
   double mean_lux = 0;    ///< area-weighted mean of the layer's luminance
   double noise = 0;       ///< relative standard error of the layer, area-weighted rms over texels
   std::vector<std::string> lamps;
+  std::string inputs{};  ///< hash of all that the layer was solved from; empty = not known
 };
 
 struct LayerInfo {
@@ -62,14 +64,26 @@ struct Manifest {
   std::map<std::string, std::string> facts;   ///< solver, samples, isa, seed, statistics: free text
 };
 
+class Package;
+
+/// A group's layer of a package that stands.
+struct KeptLayer {
+  const Package* from;
+  std::size_t group;
+};
+
 /// What a writer hands over. Images are per page: layers[group][page], RGB lux.
 struct PackageContents {
   Manifest manifest;  ///< layers, hashes are filled in by the writer
   Scene scene;        ///< BakedScene::scene
   std::vector<std::vector<Image>> layers;
+  /// Per group: taken over instead of layers[group]; empty = none. Files are linked where name and encoding
+  /// stay.
+  std::vector<std::optional<KeptLayer>> kept;
   std::vector<std::string> encodings;  ///< per group
   std::vector<Image> receivers;  ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
   std::vector<Image> noise;      ///< per page: one channel per group, relative standard error
+  std::string layout;            ///< receive/layout.h; may be empty
 };
 
 /// Writes beside and renames. @throws Error (unwritable, disk full); nothing half-written stays
@@ -88,6 +102,8 @@ class Package {
   Image layer(std::size_t group, int page) const;
   Image receivers(int page) const;
   Image noise(int page) const;
+  /// What PackageContents::layout was. @throws Error when there is none
+  std::string layout() const;
   /// scene.glb, read when first asked for.
   Scene scene() const;
 

@@ -149,6 +149,12 @@ Image Package::noise(int page) const {
   return pick(read_exr(file), layer_names(manifest_.groups), manifest_, file);
 }
 
+std::string Package::layout() const {
+  const std::string name(kLayoutFile);
+  if (manifest_.hashes.count(name) == 0) throw Error(path_.string(), "has no " + name);
+  return read_file(path_ / name);
+}
+
 Scene Package::scene() const {
   const std::string where = (path_ / "scene.glb").string();
   Scene scene = read_glb(read_file(where), where);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -39,9 +40,10 @@ void check(const PackageContents& c) {
   if (c.layers.size() != m.groups.size() || c.encodings.size() != m.groups.size() ||
       c.receivers.size() != pages || (!c.noise.empty() && c.noise.size() != pages))
     throw Error({}, "the package's images do not match its groups and pages");
-  for (const std::vector<Image>& group : c.layers) {
-    if (group.size() != pages) throw Error({}, "a light group's layer misses a page");
-    for (const Image& image : group) check_page(image, m, 3, "a layer's");
+  for (std::size_t g = 0; g < c.layers.size(); ++g) {
+    if (g < c.kept.size() && c.kept[g]) continue;
+    if (c.layers[g].size() != pages) throw Error({}, "a light group's layer misses a page");
+    for (const Image& image : c.layers[g]) check_page(image, m, 3, "a layer's");
   }
   for (const Image& image : c.receivers) check_page(image, m, 4, "the receivers'");
   for (const Image& image : c.noise) check_page(image, m, m.groups.size(), "the noise");
@@ -78,6 +80,13 @@ Image sky_image(const Light& light) {
   return image;
 }
 
+/// Files are never written in place, so two packages may share one.
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code ec;
+  fs::create_hard_link(from, to, ec);
+  if (ec) fs::copy_file(from, to);
+}
+
 /// One file of the package: how to write it, and where its hash goes.
 struct Job {
   fs::path file;
@@ -95,6 +104,8 @@ class Writer {
     add_sky();
     jobs_.push_back(
         {"scene.glb", [this](const fs::path& f) { write_file(f, write_glb(c_.scene, m_.generator)); }, {}});
+    if (!c_.layout.empty())
+      jobs_.push_back({kLayoutFile, [this](const fs::path& f) { write_file(f, c_.layout); }, {}});
   }
 
   void run(const fs::path& folder) {
@@ -120,6 +131,7 @@ class Writer {
   void add_layers() {
     m_.layers.clear();
     for (std::size_t g = 0; g < m_.groups.size(); ++g) {
+      if (g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g])) continue;
       const std::string encoding = fitting_encoding(c_.encodings[g], c_.layers[g]);
       const PixelType type = find_encoding(encoding).exr_type;
       for (int page = 0; page < m_.pages; ++page) {
@@ -134,6 +146,31 @@ class Writer {
                          {}});
       }
     }
+  }
+
+  /// The files of a kept layer as they are, or false and its images where they must be written anew.
+  bool keep_files(std::size_t g, const KeptLayer& kept) {
+    const Manifest& old = kept.from->manifest();
+    std::vector<LayerInfo> files;
+    for (const LayerInfo& layer : old.layers)
+      if (layer.group == kept.group) files.push_back(layer);
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.page < b.page; });
+    // The name is in the files, too.
+    const bool same = old.groups[kept.group].name == m_.groups[g].name &&
+                      layer_names(old.groups)[kept.group] == names_[g] &&
+                      files.front().encoding == c_.encodings[g];
+    if (!same) {
+      for (const LayerInfo& layer : files) c_.layers[g].push_back(kept.from->layer(kept.group, layer.page));
+      return false;
+    }
+    for (LayerInfo& layer : files) {
+      const fs::path from = kept.from->path() / "layers" / layer.file;
+      jobs_.push_back(
+          {fs::path("layers") / layer.file, [from](const fs::path& f) { link_or_copy(from, f); }, {}});
+      layer.group = static_cast<uint32_t>(g);
+      m_.layers.push_back(std::move(layer));
+    }
+    return true;
   }
 
   void add_pages() {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -14,36 +15,33 @@ std::string made_with(const BakeParams& params) {
                      params.noise);
 }
 
-void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers, Shard shard,
-                BakeState& state, const Progress& progress) {
+void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers,
+                std::span<const uint8_t> wanted, std::span<const std::size_t> tiles, BakeState& state,
+                const Progress& progress) {
   const std::string with = made_with(params);
-  std::vector<std::size_t> todo;
-  std::size_t mine = 0;
-  for (std::size_t tile = shard.index; tile < receivers.tiles(); tile += shard.count) {
-    ++mine;
-    if (!state.has(tile) || state.made_with(tile) != with) todo.push_back(tile);
-  }
-  const std::size_t groups = state.header().groups;
-  std::atomic<uint64_t> done = mine - todo.size();
-  progress.at("bake", done, mine);
-  parallel_for(todo.size(), 1, [&](std::size_t k) {
+  std::atomic<uint64_t> done = 0;
+  progress.at("bake", done, tiles.size());
+  parallel_for(tiles.size(), 1, [&](std::size_t k) {
     progress.check();
-    const std::size_t tile = todo[k], first = tile * TexelReceivers::kTile, count = state.receivers_of(tile);
-    std::vector<GroupValue> values(groups * count), one(groups);
+    const std::size_t tile = tiles[k], first = tile * TexelReceivers::kTile, count = state.receivers_of(tile);
+    std::vector<GroupValue> values(state.header().groups * count), one(wanted.size());
     for (std::size_t i = 0; i < count; ++i) {
       if (i % 16 == 0) progress.check();
       solver.solve(receivers.footprint(first + i), one);
-      for (std::size_t g = 0; g < groups; ++g) values[g * count + i] = one[g];
+      std::size_t at = i;
+      for (std::size_t g = 0; g < wanted.size(); ++g)
+        if (wanted[g] != 0) values[std::exchange(at, at + count)] = one[g];
     }
     state.append(tile, with, values);
-    progress.at("bake", ++done, mine);
+    progress.at("bake", ++done, tiles.size());
   });
 }
 
-std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakeParams& params) {
+std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const BakeParams& params,
+                                       Shard shard) {
   std::vector<std::size_t> missing;
   const std::string with = made_with(params);
-  for (std::size_t tile = 0; tile < states.front().tiles(); ++tile) {
+  for (std::size_t tile = shard.index; tile < states.front().tiles(); tile += shard.count) {
     bool found = false;
     for (const BakeState& state : states) found |= state.has(tile) && state.made_with(tile) == with;
     if (!found) missing.push_back(tile);
@@ -51,8 +49,9 @@ std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakePa
   return missing;
 }
 
-Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas,
-                     const TexelReceivers& receivers, std::span<const float> areas) {
+Layer assemble_layer(std::span<BakeState> states, const BakeParams& params, uint32_t group,
+                     const Atlas& atlas, const TexelReceivers& receivers, std::span<const float> areas) {
+  const std::string with = made_with(params);
   Layer layer;
   const std::size_t page_texels =
       static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
@@ -66,7 +65,7 @@ Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& a
   for (std::size_t tile = 0; tile < receivers.tiles(); ++tile) {
     const BakeState* source = nullptr;
     for (const BakeState& state : states)
-      if (state.has(tile)) source = &state;
+      if (state.has(tile) && state.made_with(tile) == with) source = &state;
     const std::vector<GroupValue> values = source->read(tile, group);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t receiver = tile * TexelReceivers::kTile + i;

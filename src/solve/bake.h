@@ -7,17 +7,19 @@
 
 namespace sconce {
 
-/// Which tiles this process bakes: those with tile % count == index.
+/// Which tiles a process bakes: those with tile % count == index.
 struct Shard {
   uint32_t index = 0, count = 1;
 };
 
-/// Solves all tiles of the shard that `state` does not hold yet. Returns when done; what is finished is on
-/// disk even when this throws. Same bits at any thread count and for any sharding: a receiver's value depends
-/// on the receiver alone.
+/// Solves these tiles and appends them to `state`. Returns when done; what is finished is on disk even when
+/// this throws. Same bits at any thread count and for any choice of tiles: a receiver's value depends on the
+/// receiver alone.
+/// @param wanted  per scene group: 1 = the state holds it, as SolveContext::wanted
 /// @throws Cancelled, Error (disk full)
-void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers, Shard shard,
-                BakeState& state, const Progress& progress);
+void bake_tiles(const Solver& solver, const BakeParams& params, const TexelReceivers& receivers,
+                std::span<const uint8_t> wanted, std::span<const std::size_t> tiles, BakeState& state,
+                const Progress& progress);
 
 /// One group's finished layer: RGB lux per page, gaps filled, and the relative standard error per texel.
 struct Layer {
@@ -26,13 +28,15 @@ struct Layer {
   double mean_lux = 0;        ///< area-weighted
   double relative_noise = 0;  ///< area-weighted rms of (error / mean of the layer)
 };
-/// @param states  their union must hold every tile
+/// @param states  their union must hold every tile, made with these params
+/// @param group   its place in the states
 /// @param areas   per receiver, m2
-Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas,
-                     const TexelReceivers& receivers, std::span<const float> areas);
+Layer assemble_layer(std::span<BakeState> states, const BakeParams& params, uint32_t group,
+                     const Atlas& atlas, const TexelReceivers& receivers, std::span<const float> areas);
 
-/// Tiles that none of the states holds with these params.
-std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakeParams& params);
+/// Tiles of the shard that none of the states holds with these params, ascending.
+std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const BakeParams& params,
+                                       Shard shard = {});
 
 /// Text that names what a record was made with.
 std::string made_with(const BakeParams& params);

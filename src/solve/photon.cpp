@@ -40,7 +40,6 @@ void add(const PhotonMap& map, const PhotonMap::Density& density, const Rgb& thr
 /// The map as a path reads it. One per thread.
 class MapReader {
  public:
-
   MapReader(const World& world, const PhotonMap& map, int bounces)
       : world_(world), map_(map), bounces_(bounces) {}
 

@@ -24,7 +24,6 @@ std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
 
 /// What receivers' rays read.
 struct RadiosityCache {
-
   const GatherCloud* cloud = nullptr;
   const float* direct = nullptr;  ///< cells x 3 groups
   /// samples x 3 groups: light at the ends of receivers' own rays; at those of rays that went on once
