@@ -6,8 +6,10 @@
 
 #include "app.h"
 #include "bake_report.h"
+#include "checkpoint.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "ranks.h"
 
 namespace fs = std::filesystem;
 
@@ -38,8 +40,17 @@ Shard parse_shard(const std::string& text) {
   throw UsageError("--shard", "'" + text + "' is no shard", "i/n with 0 <= i < n, e.g. 0/3");
 }
 
+/// Options as they are given; they outlive their declarations, which tell where values came from.
+struct Given {
+  std::string scene, output, shard, quality = "normal";
+  int samples = 0, bounces = -1, seed = 1, page = 0;
+  double density = 0, noise = 0, photons = 0;
+  bool direct_estimate = false;
+};
+
 /// What this verb's options say, checked.
 struct Request {
+  Given given;
   BakeJob job;
   fs::path output;
   std::optional<Shard> shard;
@@ -54,23 +65,6 @@ fs::path state_path(const Request& request) {
   return path += fmt::format(".shard-{}-of-{}", request.shard->index, request.shard->count);
 }
 
-BakeState open_state(const Request& request, const PreparedBake& bake, const Progress& progress) {
-  const fs::path path = state_path(request);
-  if (!fs::exists(path)) return BakeState::create(path, bake.header());
-  if (!request.resume) {
-    progress.warn(path.string() + " of an unfinished bake is replaced (--resume would have continued it)");
-    return BakeState::create(path, bake.header());
-  }
-  BakeState state = BakeState::open(path);
-  if (state.header().hash != bake.header().hash)
-    throw Error(path.string(), "belongs to another scene or other options, so it cannot be resumed",
-                "the options of the first run, or no --resume");
-  if (state.header().isa != bake.header().isa)
-    throw Error(path.string(), "was begun on another instruction set (" + state.header().isa + ")",
-                bake.header().isa);
-  return state;
-}
-
 void check_writable(const fs::path& output) {
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
   if (!fs::is_directory(folder))
@@ -79,27 +73,46 @@ void check_writable(const fs::path& output) {
     throw Error(output.string(), "exists and is no package, so it is left alone");
 }
 
-int execute(const Request& request, const Options& options, const Progress& progress) {
+/// Ranks that saw other files or run other instructions would bake parts that do not fit together.
+void check_agreement(const PreparedBake& bake, const RankSession& session) {
+  const std::vector<std::string> all =
+      session.ranks().allgather(bake.header().hash + bake.header().isa + (bake.up_to_date() ? "stands" : ""));
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw Error(fmt::format("rank {}", rank),
+                  "sees another scene or package or has another instruction set", "what rank 0 has");
+}
+
+int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  check_writable(request.output);
-  // Shards are parts of a whole bake: what stands on one machine may stand on no other.
-  const bool anew = request.force || request.shard;
-  const PreparedBake bake(request.job, progress, anew ? fs::path() : request.output);
+  std::optional<PreparedBake> prepared;
+  session.together([&] {
+    check_writable(request.output);
+    // Shards are parts of a whole bake: what stands on one machine may stand on no other.
+    const bool anew = request.force || request.shard;
+    prepared.emplace(request.job, progress, anew ? fs::path() : request.output);
+  });
+  const PreparedBake& bake = *prepared;
   if (request.dry_run) {
     print_plan(bake, options.json);
     return kDone;
   }
+  const Ranks ranks = session.ranks();
+  if (ranks.count > 1) check_agreement(bake, session);
   if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
     return kDone;
   }
   std::vector<BakeState> states;
   if (bake.plan.count(true) > 0) {
-    states.push_back(open_state(request, bake, progress));
-    run_bake(bake, request.shard.value_or(Shard{}), states.front(), progress);
+    Checkpoint checkpoint(state_path(request), bake.header(), request.resume, session, progress);
+    const std::vector<std::size_t> tiles =
+        checkpoint.todo(bake.job.params, request.shard.value_or(Shard{}), ranks);
+    run_bake(bake, tiles, checkpoint.own(), ranks, progress);
+    states = checkpoint.finish(session);
   }
   if (request.shard) {
     if (!options.quiet)
@@ -107,24 +120,22 @@ int execute(const Request& request, const Options& options, const Progress& prog
                  seconds());
     return kDone;
   }
-  std::map<std::string, Provenance> provenance;
-  for (const auto& [key, value] : options.provenance()) provenance[key] = {value.value, value.source};
-  const Manifest manifest = write_result(bake, states, request.output, provenance, progress);
-  std::error_code ignored;
-  for (const BakeState& state : states) fs::remove(state.path(), ignored);
-  if (!options.quiet || options.json) print_result(bake, manifest, request.output, seconds(), options.json);
+  session.together([&] {
+    if (ranks.index != 0) return;
+    std::map<std::string, Provenance> provenance;
+    for (const auto& [key, value] : options.provenance()) provenance[key] = {value.value, value.source};
+    const Manifest manifest = write_result(bake, states, request.output, provenance, progress);
+    std::error_code ignored;
+    for (const BakeState& state : states) fs::remove(state.path(), ignored);
+    if (!options.quiet || options.json) print_result(bake, manifest, request.output, seconds(), options.json);
+  });
   return kDone;
 }
 
-}  // namespace
-
-int run_bake(int argc, const char* const* argv) {
-  Options options("bake", "Computes one lightmap per light group of a scene and writes them as a package.");
-  Request request;
-  std::string scene, output, shard, quality = "normal";
-  int samples = 0, bounces = -1, seed = 1, page = 0;
-  double density = 0, noise = 0, photons = 0;
-  bool direct_estimate = false;
+/// @return exit code when nothing is left to do
+std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
+  auto& [scene, output, shard, quality, samples, bounces, seed, page, density, noise, photons,
+         direct_estimate] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
@@ -190,9 +201,28 @@ int run_bake(int argc, const char* const* argv) {
   request.output =
       output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);
   if (!fs::exists(job.scene)) throw Error(scene, "no such file");
+  return std::nullopt;
+}
 
-  const ThreadLimit threads(options.threads);
-  return execute(request, options, make_progress(options));
+}  // namespace
+
+int run_bake(int argc, const char* const* argv) {
+  RankSession session;
+  return session.guard([&] {
+    Options options("bake", "Computes one lightmap per light group of a scene and writes them as a package.");
+    Request request;
+    std::optional<int> code;
+    session.together([&] {
+      code = read_request(argc, argv, options, request);
+      if (request.shard && session.ranks().count > 1)
+        throw UsageError("--shard", "cannot stand beside several MPI ranks: they share the texels already");
+    });
+    if (code) return *code;
+    const ThreadLimit threads(options.threads);
+    const Progress progress = make_progress(options);
+    session.watch(progress.stop);
+    return execute(request, options, session, progress);
+  });
 }
 
 }  // namespace sconce::app

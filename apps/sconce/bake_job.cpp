@@ -164,13 +164,17 @@ std::string PreparedBake::result_hash() const {
   return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).hex();
 }
 
-void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
+void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, BakeState& state,
+              const Ranks& ranks, const Progress& progress) {
   const std::vector<uint8_t> wanted = bake.plan.wanted();
   const SolveContext context{bake.scene,  bake.world,      bake.tracer, bake.lamps,
-                             &bake.atlas, &bake.receivers, wanted};
+                             &bake.atlas, &bake.receivers, wanted,      ranks};
   const auto solver = find_solver(bake.job.solver).prepare(context, bake.job.params, progress);
-  const std::vector<std::size_t> tiles = missing_tiles(std::span(&state, 1), bake.job.params, shard);
   bake_tiles(*solver, bake.job.params, bake.receivers, wanted, tiles, state, progress);
+}
+
+void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
+  run_bake(bake, missing_tiles(std::span(&state, 1), bake.job.params, shard), state, {}, progress);
 }
 
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,

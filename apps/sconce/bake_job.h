@@ -53,7 +53,10 @@ struct PreparedBake {
   bool up_to_date() const;
 };
 
-/// Bakes the tiles that `state` lacks, for the groups that are not kept.
+/// Bakes these tiles, for the groups that are not kept.
+void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, BakeState& state,
+              const Ranks& ranks, const Progress& progress);
+/// Bakes the tiles of the shard that `state` lacks.
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
 
 /// Fills gaps, takes over what is kept and writes the package. @throws Error: tiles missing, unwritable

@@ -98,7 +98,7 @@ class RowGatherer {
 }  // namespace
 
 Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
-                const DirectLight& direct, const Progress& progress) {
+                const DirectLight& direct, const Progress& progress, const Ranks& ranks) {
   constexpr std::size_t kBlock = 256;
   const std::size_t blocks = (cloud.size() + kBlock - 1) / kBlock;
   std::vector<SparseRows> parts(blocks);
@@ -108,6 +108,7 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
   result.once.assign(width * cloud.size(), 0.0f);
   std::atomic<uint64_t> done = 0;
   parallel_for(blocks, 1, [&](std::size_t block) {
+    if (!ranks.mine(block)) return;
     progress.check();
     RowGatherer gatherer(world, tracer, cloud, direct);
     for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i)
@@ -115,6 +116,29 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
                       std::span(result.once).subspan(width * i, width));
     progress.at("gather rows", ++done, blocks);
   });
+  const auto once_of = [&](std::size_t block) {
+    const std::size_t first = block * kBlock, end = std::min(cloud.size(), first + kBlock);
+    return std::span(result.once).subspan(width * first, width * (end - first));
+  };
+  ranks.share(
+      blocks,
+      [&](std::size_t block, std::string& bytes) {
+        const SparseRows& part = parts[block];
+        put_span<uint64_t>(bytes, part.first);
+        put_span<uint32_t>(bytes, part.columns);
+        put_span<uint16_t>(bytes, part.counts);
+        put_span<float>(bytes, once_of(block));
+      },
+      [&](std::size_t block, std::string_view& bytes) {
+        SparseRows& part = parts[block];
+        part.first.resize(std::min(cloud.size(), (block + 1) * kBlock) - block * kBlock + 1);
+        take_span<uint64_t>(bytes, part.first);
+        part.columns.resize(part.first.back());
+        part.counts.resize(part.first.back());
+        take_span<uint32_t>(bytes, part.columns);
+        take_span<uint16_t>(bytes, part.counts);
+        take_span<float>(bytes, once_of(block));
+      });
   SparseRows& rows = result.rows;
   for (SparseRows& part : parts) {
     const uint64_t base = rows.columns.size();

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "core/ranks.h"
 #include "gather/cloud.h"
 #include "transfer/sparse_rows.h"
 
@@ -35,8 +36,9 @@ struct DirectLight {
 /// Rows of K by cosine-distributed rays from all over a sample's cells (methods.md 2.4, "hemisphere
 /// gathering").
 /// @param direct  groups = 0: rows only
+/// @param ranks   share the rows; each gets all
 Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
-                const DirectLight& direct, const Progress& progress = {});
+                const DirectLight& direct, const Progress& progress = {}, const Ranks& ranks = {});
 
 /// Number of bounces after which all light still to come is less than `tolerance` of what started, were it
 /// even: a property of the scene alone, so that no lamp's result depends on another lamp. A mean over

@@ -69,7 +69,7 @@ class RadiositySolver final : public Solver {
       };
     };
     const Gathered gathered =
-        gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress);
+        gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress, context.ranks);
     const auto indirect = [&](int bounces) {
       return bounce(gathered.rows, *cloud_, gathered.once, bounces, progress);
     };
@@ -102,7 +102,9 @@ class RadiositySolver final : public Solver {
     std::atomic<uint64_t> done = 0;
     constexpr std::size_t kBlock = 4096;
     const std::size_t blocks = (cloud_->cells() + kBlock - 1) / kBlock;
+    const Ranks& ranks = context_.ranks;
     parallel_for(blocks, 1, [&](std::size_t block) {
+      if (!ranks.mine(block)) return;
       progress.check();
       PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps, 0,
                                 context_.wanted);
@@ -118,6 +120,13 @@ class RadiositySolver final : public Solver {
       }
       progress.at("light on the cloud", ++done, blocks);
     });
+    const auto part = [&](std::size_t block) {
+      const std::size_t first = block * kBlock, end = std::min(cloud_->cells(), first + kBlock);
+      return std::span(direct).subspan(width * first, width * (end - first));
+    };
+    ranks.share(
+        blocks, [&](std::size_t block, std::string& bytes) { put_span<float>(bytes, part(block)); },
+        [&](std::size_t block, std::string_view& bytes) { take_span<float>(bytes, part(block)); });
     return direct;
   }
 

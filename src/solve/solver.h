@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/progress.h"
+#include "core/ranks.h"
 #include "core/receiver.h"
 #include "light/lamp.h"
 #include "receive/atlas.h"
@@ -36,6 +37,8 @@ struct SolveContext {
   const Atlas* atlas = nullptr;               ///< the lightmap, where there is one
   const TexelReceivers* receivers = nullptr;  ///< its texels
   std::span<const uint8_t> wanted = {};  ///< per scene group: 0 = may stay black; empty = all are asked for
+
+  Ranks ranks = {};  ///< may share what prepare() computes; each needs all of it
 
   bool wants(Id<LightGroup> group) const { return wanted.empty() || wanted[group.value] != 0; }
 };

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ranks.h"
+
+#include <exception>
+
+#include "core/error.h"
+
+namespace sconce::app {
+
+Ranks RankSession::ranks() const {
+  return {index_, count_, [this](std::string_view mine) { return allgather(mine); }};
+}
+
+void RankSession::together(const std::function<void()>& f) {
+  if (count_ == 1) return f();
+  std::string mine;
+  std::exception_ptr own;
+  try {
+    f();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
+    own = std::current_exception();
+    mine = std::string("!") + error.what();
+  }
+  const std::vector<std::string> all = allgather(mine);
+  for (std::size_t rank = 0; rank < all.size(); ++rank) {
+    if (all[rank].empty()) continue;
+    all_failed_ = true;
+    if (own) std::rethrow_exception(own);
+    throw Error("rank " + std::to_string(rank), all[rank].substr(1));
+  }
+}
+
+int RankSession::guard(const std::function<int()>& f) {
+  if (count_ == 1) return f();
+  try {
+    const int code = f();
+    return index_ == 0 ? code : 0;  // a launcher ends all others when one fails; the first is to speak
+  } catch (const std::exception& error) {
+    if (all_failed_) {
+      if (index_ == 0) throw;
+      return 0;
+    }
+    if (dynamic_cast<const Cancelled*>(&error) == nullptr)
+      abort("rank " + std::to_string(index_) + ": " + error.what());
+    abort(index_ == 0 ? "stopped, by a signal or because another rank has ended; what is finished is kept "
+                        "(--resume goes on)"
+                      : "");
+  }
+}
+
+}  // namespace sconce::app
