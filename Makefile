@@ -30,7 +30,7 @@ demo: build ## bake our bathroom and picture it in four moods: out/demo/
 
 # The suite `lean` leaves out what needs large packages (label big); SUITES=all adds it.
 test: setup $(BUILD)/build.ninja ## build everything and run the tests; SUITES=all for the whole suite
-	$(if $(filter all,$(SUITES)),@tools/setup.sh lean all)
+	$(if $(filter all,$(SUITES)),@tools/setup.sh lean all && cmake --preset release -B $(BUILD) >/dev/null)
 	ninja -C $(BUILD)
 	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS) $(if $(filter all,$(SUITES)),,-LE big)
 

@@ -80,6 +80,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+TEST(Cli, SeveralProcessesWithoutMpiAreOneClearLine) {
+  if (SCONCE_HAS_MPI) GTEST_SKIP() << "this build has MPI";
+  const Outcome outcome = run_sconce({"bake", "any.glb"}, "OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("built without MPI"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 
 TEST(Cli, HelpAndVersion) {
