@@ -24,7 +24,6 @@ std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
 
 /// What receivers' rays read.
 struct RadiosityCache {
-
   const GatherCloud* cloud = nullptr;
   const float* direct = nullptr;  ///< cells x 3 groups
   /// samples x 3 groups: light at the ends of receivers' own rays; at those of rays that went on once
@@ -92,6 +91,10 @@ class RadiositySolver final : public Solver {
     PathKernel<Tracer, RadiosityCache> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
                                               params_.bounces, context_.wanted, cache);
     solve_receiver(kernel, receiver, params_, out);
+  }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
   }
 
  private:
