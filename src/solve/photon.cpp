@@ -80,6 +80,10 @@ class PhotonSolver final : public Solver {
     solve_receiver(kernel, receiver, params_, out);
     if (!params_.final_gather && params_.bounces != 0) add_indirect(receiver, out);
   }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
+  }
 
  private:
   /// Adds the density of reflected light at one point of the receiver per batch.

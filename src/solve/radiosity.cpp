@@ -92,6 +92,10 @@ class RadiositySolver final : public Solver {
                                               params_.bounces, context_.wanted, cache);
     solve_receiver(kernel, receiver, params_, out);
   }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
+  }
 
  private:
   /// Direct illuminance on the cloud's cells, cells x 3 groups; black where they are not trusted wholly.

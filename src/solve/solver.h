@@ -57,6 +57,9 @@ class Solver {
   /// random numbers).
   /// @param out  one per scene group
   virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
+  /// Another number of samples than it was prepared with, for a bake that learns only then how many its time
+  /// allows. @return false: it has no such number
+  virtual bool set_samples(int) { return false; }
 };
 
 struct SolverRow {
