@@ -53,11 +53,12 @@ std::vector<uint32_t> pick_seeds(const World& world, const SurfaceCells& cells,
 }  // namespace
 
 GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
-                         const TexelReceivers* receivers, const CloudParams& params, const Progress& progress)
+                         const TexelReceivers* receivers, const CloudParams& params, const Progress& progress,
+                         const Ranks& ranks)
     : world_(&world) {
   progress.at("gather cloud", 0, 3);
   const auto shares = [&](const SurfaceParts& parts, std::size_t rays) {
-    return visit_shares(world, tracer, lamps, receivers, parts, rays, params.seed);
+    return visit_shares(world, tracer, lamps, receivers, parts, rays, params.seed, ranks);
   };
   const SurfaceParts sides = whole_sides(scene, world);
   std::vector<double> mass(2 * world.size());
@@ -79,7 +80,7 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
   }
   progress.at("gather cloud", 1, 3);
   ownership_ = assign_owners(world, tracer, cells_, pick_seeds(world, cells_, weights, params.seed), spacings,
-                             weights);
+                             weights, ranks);
   progress.check();
   progress.at("gather cloud", 2, 3);
 

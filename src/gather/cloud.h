@@ -18,8 +18,10 @@ struct CloudParams {
 class GatherCloud {
  public:
   /// Spreads samples by where gather rays from `receivers` (may be null) and light from the lamps land.
+  /// @param ranks  share the work; each gets all of it
   GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
-              const TexelReceivers* receivers, const CloudParams& params, const Progress& progress = {});
+              const TexelReceivers* receivers, const CloudParams& params, const Progress& progress = {},
+              const Ranks& ranks = {});
 
   std::size_t size() const { return areas_.size(); }
   std::size_t cells() const { return cells_.size(); }

@@ -124,7 +124,7 @@ uint32_t Samples::nearest(const SurfacePoint& at) const {
 
 Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceCells& cells,
                         std::vector<uint32_t> seeds, std::span<const float> spacings,
-                        std::span<const float> weights) {
+                        std::span<const float> weights, const Ranks& ranks) {
   std::vector<SurfacePoint> points;
   std::vector<float> around;
   for (const uint32_t seed : seeds) {
@@ -134,7 +134,9 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
   const Samples first(tracer, points, around);
   std::vector<Owner> owners(cells.size());
   constexpr uint32_t kOrphan = 0xffffffffu;
-  parallel_for(cells.size(), 256, [&](std::size_t c) {
+  constexpr std::size_t kGrain = 256;
+  parallel_for(cells.size(), kGrain, [&](std::size_t c) {
+    if (!ranks.mine(c / kGrain)) return;
     const auto cell = static_cast<uint32_t>(c);
     const SurfacePoint at = cells.middle(world, cell);
     if (const auto sample = first.find(at))
@@ -142,6 +144,12 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
     else
       owners[c].sample = weights[c] >= kLeastShare ? kOrphan : first.nearest(at);
   });
+  const auto block_of = [&](std::size_t block) {
+    return std::span(owners).subspan(block * kGrain, std::min(kGrain, owners.size() - block * kGrain));
+  };
+  ranks.share((cells.size() + kGrain - 1) / kGrain,
+              [&](std::size_t block, std::string& bytes) { put_span<Owner>(bytes, block_of(block)); },
+              [&](std::size_t block, std::string_view& bytes) { take_span<Owner>(bytes, block_of(block)); });
   for (uint32_t s = 0; s < seeds.size(); ++s)
     owners[seeds[s]] = {s, trust(world, tracer, cells, seeds[s], points[s])};
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/ranks.h"
 #include "gather/cells.h"
 #include "trace/tracer.h"
 
@@ -65,6 +66,6 @@ struct Ownership {
 /// @param weights   per cell: its share of the samples; cells below an eighth of a sample never become one
 Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceCells& cells,
                         std::vector<uint32_t> seeds, std::span<const float> spacings,
-                        std::span<const float> weights);
+                        std::span<const float> weights, const Ranks& ranks = {});
 
 }  // namespace sconce

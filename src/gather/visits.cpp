@@ -41,6 +41,19 @@ class Visits {
     if (!(glm::dot(direction, at.geometric_normal) > 0)) return {Vec3(0), Vec3(0)};
     return {offset_origin(at.position, at.geometric_normal, direction), direction};
   }
+  /// Adds what other ranks have met.
+  void join(const Ranks& ranks) {
+    if (ranks.count == 1) return;
+    std::string mine;
+    put_span<uint64_t>(mine, hits_);
+    std::fill(hits_.begin(), hits_.end(), 0);
+    std::vector<uint64_t> one(hits_.size());
+    for (const std::string& bytes : ranks.allgather(mine)) {
+      std::string_view left = bytes;
+      take_span<uint64_t>(left, one);
+      for (std::size_t p = 0; p < hits_.size(); ++p) hits_[p] += one[p];
+    }
+  }
   /// Adds `share` of the samples, spread as the hits; false where nothing was hit.
   bool add(double share, std::vector<double>& shares) const {
     double count = 0;
@@ -62,23 +75,27 @@ class Visits {
 
 std::vector<double> visit_shares(const World& world, const Tracer& tracer, const Lamps& lamps,
                                  const TexelReceivers* receivers, const SurfaceParts& parts, std::size_t rays,
-                                 uint32_t seed) {
+                                 uint32_t seed, const Ranks& ranks) {
+  constexpr std::size_t kGrain = 1024;
   std::vector<double> shares(parts.size(), 0.0);
   double rest = 1;
   if (receivers != nullptr && receivers->size() > 0) {
     Visits visits(world, tracer, parts);
-    parallel_for(rays, 1024, [&](std::size_t i) {
+    parallel_for(rays, kGrain, [&](std::size_t i) {
+      if (!ranks.mine(i / kGrain)) return;
       Sampler sampler(seed, 0x76697369u, static_cast<uint32_t>(i));
       const auto pick = static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(rays) *
                                                  static_cast<double>(receivers->size()));
       const Ray ray = Visits::leave(receivers->footprint(pick).sample(sampler.next()), sampler);
       if (ray.direction != Vec3(0)) visits.follow(ray, sampler);
     });
+    visits.join(ranks);
     if (visits.add(kBySight, shares)) rest -= kBySight;
   }
   if (lamps.size() > 0) {
     Visits visits(world, tracer, parts);
-    parallel_for(rays, 1024, [&](std::size_t i) {
+    parallel_for(rays, kGrain, [&](std::size_t i) {
+      if (!ranks.mine(i / kGrain)) return;
       Sampler sampler(seed, 0x6c616d70u, static_cast<uint32_t>(i));
       const Vec2 where = sampler.next();
       const EmittedLight light = lamps.emit(i % lamps.size(), where, sampler.next());
@@ -87,6 +104,7 @@ std::vector<double> visit_shares(const World& world, const Tracer& tracer, const
                      light.direction},
                     sampler);
     });
+    visits.join(ranks);
     if (visits.add(kByLight, shares)) rest -= kByLight;
   }
   double total = 0;

@@ -55,7 +55,7 @@ class RadiositySolver final : public Solver {
     cloud.seed = params.seed;
     cloud.samples = cloud_size(context, params);
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
-                                           context.receivers, cloud, progress);
+                                           context.receivers, cloud, progress, context.ranks);
     direct_ = direct_light(progress);
     const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 256));
     DirectLight direct;
