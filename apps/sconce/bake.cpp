@@ -101,7 +101,7 @@ int execute(const Request& request, const Options& options, RankSession& session
     return kDone;
   }
   const Ranks ranks = session.ranks();
-  if (ranks.count > 1) check_agreement(bake, session);
+  session.together([&] { check_agreement(bake, session); });
   if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
     return kDone;

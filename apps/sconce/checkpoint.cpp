@@ -45,8 +45,8 @@ BakeState take_up(const fs::path& path, const BakeHeader& header) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(const fs::path& path, const BakeHeader& header, bool resume,
-                       RankSession& session, const Progress& progress)
+Checkpoint::Checkpoint(const fs::path& path, const BakeHeader& header, bool resume, RankSession& session,
+                       const Progress& progress)
     : path_(path) {
   const Ranks ranks = session.ranks();
   const fs::path own = file_of(path, ranks.index);
@@ -55,7 +55,8 @@ Checkpoint::Checkpoint(const fs::path& path, const BakeHeader& header, bool resu
     const auto stale = others(path);
     if (fs::exists(path) || !stale.empty())
       progress.warn(path.string() + " of an unfinished bake is replaced (--resume would have continued it)");
-    for (const auto& [rank, file] : stale) fs::remove(file);
+    std::error_code ignored;  // what stays in the way is its rank's error
+    for (const auto& [rank, file] : stale) fs::remove(file, ignored);
   });
   session.together([&] {
     states_.push_back(resume && fs::exists(own) ? take_up(own, header) : BakeState::create(own, header));

@@ -14,8 +14,8 @@ class Checkpoint {
  public:
   /// Takes up what is there (`resume`) or replaces it with a warning. All ranks together.
   /// @throws Error when it belongs to another bake
-  Checkpoint(const std::filesystem::path& path, const BakeHeader& header, bool resume,
-             RankSession& session, const Progress& progress);
+  Checkpoint(const std::filesystem::path& path, const BakeHeader& header, bool resume, RankSession& session,
+             const Progress& progress);
 
   /// This rank's share of the shard's tiles that nobody has finished. All ranks together.
   std::vector<std::size_t> todo(const BakeParams& params, Shard shard, const Ranks& ranks) const;
