@@ -142,7 +142,8 @@ int run_bake(int argc, const char* const* argv) {
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
-  options.option("--solver", &job.solver, "how light travels: path");
+  options.option("--solver", &job.solver,
+                 "how light travels: path, or external:CMD, a program run once per group");
   options.option("--atlas", &page, "page size in texels; the density follows (default: 1024)");
   options.option("--density", &density, "texels per metre; pages follow, up to 4096 each");
   options.option("--quality", &quality, "draft, normal or final: 32, 128 or 1024 samples");
@@ -177,7 +178,10 @@ int run_bake(int argc, const char* const* argv) {
   job.atlas.density = static_cast<float>(density);
   job.atlas.page_size = density > 0 ? 0 : page > 0 ? page : 1024;
   parse_grouping(job.grouping);
-  find_solver(job.solver);
+  const bool runs_program = find_solver(job.solver).runs_program;
+  if (runs_program && noise > 0) throw UsageError("--noise", "cannot stand beside --solver " + job.solver);
+  if (runs_program && !shard.empty())
+    throw UsageError("--shard", "cannot stand beside --solver " + job.solver + ", which bakes whole pages");
   if (!shard.empty()) request.shard = parse_shard(shard);
   request.output =
       output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);

@@ -122,7 +122,11 @@ std::string PreparedBake::result_hash() const {
 
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
   const SolveContext context{bake.scene, bake.world, bake.tracer, bake.lamps, &bake.atlas, &bake.receivers};
-  const auto solver = find_solver(bake.job.solver).prepare(context, bake.job.params, progress);
+  BakeParams params = bake.job.params;
+  params.command = solver_command(bake.job.solver);
+  params.work_folder = state.path();
+  params.work_folder.replace_extension(".external");
+  const auto solver = find_solver(bake.job.solver).prepare(context, params, progress);
   bake_tiles(*solver, bake.job.params, bake.receivers, shard, state, progress);
 }
 

@@ -2,8 +2,10 @@
 // How much light arrives at receivers. Adding a solver is one file and one row of table.cpp.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/progress.h"
@@ -18,7 +20,9 @@ struct BakeParams {
   int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
   int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
-  double noise = 0;  ///< stop a receiver early when its relative standard error falls below; 0 = never
+  double noise = 0;     ///< stop a receiver early when its relative standard error falls below; 0 = never
+  std::string command;  ///< of a row with `runs_program`: what it runs
+  std::filesystem::path work_folder;  ///< and where its files go
 };
 
 /// Independently scrambled batches of samples: their spread is the noise.
@@ -57,11 +61,16 @@ struct SolverRow {
   std::string_view name, doc;
   std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params,
                                      const Progress& progress);
+  bool runs_program =
+      false;  ///< asked for as NAME:CMD; works on texels of an atlas only, whole pages at once
 };
 
-/// path; in this order.
+/// path, external; in this order.
 std::span<const SolverRow> solvers();
+/// @param name  of a row; NAME:CMD where it runs a program
 /// @throws UsageError naming the choices
 const SolverRow& find_solver(std::string_view name);
+/// CMD of NAME:CMD, else empty.
+std::string solver_command(std::string_view name);
 
 }  // namespace sconce
