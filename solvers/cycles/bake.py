@@ -100,6 +100,7 @@ def set_up_cycles(job):
 
 
 def bake_object(thing):
+    bpy.context.view_layer.update()  # what was just linked cannot be selected before
     for other in bpy.context.view_layer.objects:
         other.select_set(other == thing)
     bpy.context.view_layer.objects.active = thing
