@@ -136,20 +136,25 @@ int run_bake(int argc, const char* const* argv) {
   Request request;
   std::string scene, output, shard, quality = "normal";
   int samples = 0, bounces = -1, seed = 1, page = 0;
-  double density = 0, noise = 0;
+  double density = 0, noise = 0, photons = 0;
+  bool direct_estimate = false;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
   options.option("--solver", &job.solver,
-                 "how light travels: path, or external:CMD, a program run once per group");
+                 "how light travels: radiosity, path, photon, or external:CMD, a program run once per group");
   options.option("--atlas", &page, "page size in texels; the density follows (default: 1024)");
   options.option("--density", &density, "texels per metre; pages follow, up to 4096 each");
   options.option("--quality", &quality, "draft, normal or final: 32, 128 or 1024 samples");
   options.option("--samples", &samples, "paths per texel, instead of --quality");
   options.option("--noise", &noise, "stop a texel early at this relative standard error, e.g. 2%");
   options.option("--bounces", &bounces, "reflections; 0 = direct light only, -1 = unbounded");
+  options.option("--photons", &photons,
+                 "photon solver: emitted by all lamps together (default: 4 per texel, 0.5 to 4 M)");
+  options.flag("--direct-estimate", &direct_estimate,
+               "photon solver: texels show the map itself, no final gather");
   options.option("--encoding", &job.encoding, "f16 or f32, and exceptions by group: f16,ceiling=f32");
   options.option("--seed", &seed, "random seed");
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
@@ -170,10 +175,18 @@ int run_bake(int argc, const char* const* argv) {
   if (bounces < -1) throw UsageError("--bounces", fmt::format("{} is out of range", bounces), "-1 or more");
   if (noise < 0 || noise >= 1)
     throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
+  if (photons < 0 || photons > 1e9)
+    throw UsageError("--photons", fmt::format("{} is out of range", photons), "1 to 1000000000");
+  for (const auto& [given, option] :
+       {std::pair(photons > 0, "--photons"), {direct_estimate, "--direct-estimate"}})
+    if (given && job.solver != "photon")
+      throw UsageError(option, "means nothing to the solver " + job.solver, "--solver photon");
   if (noise > 0 && samples == 0) samples = samples_of("final");
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;
   job.params.noise = noise;
+  job.params.photons = static_cast<std::size_t>(photons);
+  job.params.final_gather = !direct_estimate;
   job.params.seed = static_cast<uint32_t>(seed);
   job.atlas.density = static_cast<float>(density);
   job.atlas.page_size = density > 0 ? 0 : page > 0 ? page : 1024;

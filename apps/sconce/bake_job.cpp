@@ -31,7 +31,10 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
   hash.text(SCONCE_VERSION).text(hash_file(job.scene));
   for (const std::filesystem::path& file : scene_files(job.scene)) hash.text(hash_file(file));
   hash.text(job.grouping).text(job.solver).text("flat");
-  hash.value(job.params.seed).value(job.params.bounces);
+  hash.value(job.params.seed)
+      .value(job.params.bounces)
+      .value(job.params.photons)
+      .value(job.params.final_gather);
   hash.value(job.atlas.page_size).value(job.atlas.max_page).value(job.atlas.density).value(job.atlas.gutter);
   hash.value(job.atlas.min_density_scale).value(job.atlas.keep_uvs).value(job.atlas.seed);
   for (const LightGroup& group : scene.groups) hash.text(group.name);
@@ -64,11 +67,19 @@ std::vector<std::string> group_encodings(const std::string& text, const Scene& s
 }  // namespace
 
 std::string BakeJob::to_json() const {
-  const nlohmann::json json = {
-      {"scene", scene.string()},  {"grouping", grouping},         {"solver", solver},
-      {"encoding", encoding},     {"page_size", atlas.page_size}, {"max_page", atlas.max_page},
-      {"density", atlas.density}, {"samples", params.samples},    {"bounces", params.bounces},
-      {"seed", params.seed},      {"noise", params.noise}};
+  const nlohmann::json json = {{"scene", scene.string()},
+                               {"grouping", grouping},
+                               {"solver", solver},
+                               {"encoding", encoding},
+                               {"page_size", atlas.page_size},
+                               {"max_page", atlas.max_page},
+                               {"density", atlas.density},
+                               {"samples", params.samples},
+                               {"bounces", params.bounces},
+                               {"seed", params.seed},
+                               {"noise", params.noise},
+                               {"photons", params.photons},
+                               {"final_gather", params.final_gather}};
   return json.dump();
 }
 
@@ -87,6 +98,8 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("bounces").get_to(job.params.bounces);
     json.at("seed").get_to(job.params.seed);
     json.at("noise").get_to(job.params.noise);
+    json.at("photons").get_to(job.params.photons);
+    json.at("final_gather").get_to(job.params.final_gather);
     return job;
   } catch (const nlohmann::json::exception&) {
     throw Error(where, "the bake's description is damaged");

@@ -24,6 +24,15 @@ struct LightSample {
 };
 inline constexpr float kInfinite = 1e30f;
 
+/// A particle of light that leaves a lamp; a mean over particles is a mean over the lamp's light.
+struct EmittedLight {
+  Vec3 position;  ///< on the lamp, for sun and sky on a disk that the light crosses before the scene
+  Vec3 normal{
+      0};  ///< of the lamp's surface there, on the side of `direction`; zero where there is no surface
+  Vec3 direction;  ///< away from the lamp, unit
+  Rgb flux;        ///< lm per channel; its mean is the lamp's flux, for sun and sky the flux through the disk
+};
+
 /// Point or spot: I / d2, windowed by KHR_lights_punctual's range and cone.
 struct PunctualLamp {
   Vec3 position, axis;
@@ -132,6 +141,12 @@ class Lamps {
     const auto* mesh = std::get_if<MeshLamp>(&lamps_[i].shape);
     return mesh != nullptr && mesh->uniform ? mesh->sample(x, u, out) : sample_other(i, x, u, out);
   }
+
+  /// A particle from lamp i, (where, whither) in [0,1)^4; position by area x texel, direction by intensity.
+  /// Sun and sky: through a disk as large as the sphere around the scene's bounds.
+  EmittedLight emit(std::size_t i, Vec2 where, Vec2 whither) const;
+  /// Share of a particle's flux that counts after its first flight, by the lamp's range; 1 for most lamps.
+  float reach(std::size_t i, float distance) const;
 
   /// Lamp of an emissive triangle, or -1.
   int lamp_of(uint32_t triangle) const { return lamp_of_.empty() ? -1 : lamp_of_[triangle]; }

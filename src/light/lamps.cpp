@@ -52,6 +52,22 @@ bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out)
       lamps_[i].shape);
 }
 
+EmittedLight Lamps::emit(std::size_t i, Vec2 where, Vec2 whither) const {
+  const Vec3 center = world_->bounds.center();
+  const float radius = 1.001f * std::sqrt(scene_radius2_);  // so that the disk touches nothing
+  return std::visit(
+      Overload{[&](const PunctualLamp& l) { return sconce::emit(l, whither); },
+               [&](const SunLamp& l) { return sconce::emit(l, center, radius, where); },
+               [&](const SkyLamp& l) { return sconce::emit(l, center, radius, where, whither); },
+               [&](const MeshLamp& l) { return sconce::emit(l, *scene_, *world_, where, whither); }},
+      lamps_[i].shape);
+}
+
+float Lamps::reach(std::size_t i, float distance) const {
+  const auto* lamp = std::get_if<PunctualLamp>(&lamps_[i].shape);
+  return lamp != nullptr ? range_window(*lamp, distance) : 1.0f;
+}
+
 Rgb Lamps::emission(uint32_t triangle, Vec2 barycentric, bool back) const {
   const int lamp = lamp_of(triangle);
   if (lamp < 0 || (back && !std::get<MeshLamp>(lamps_[static_cast<std::size_t>(lamp)].shape).two_sided))

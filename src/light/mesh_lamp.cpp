@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/mesh_lamp.h"
 
+#include "core/triangle_grid.h"
+
 namespace sconce {
 
 namespace {
@@ -68,35 +70,30 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
     lamp.first_piece.push_back(static_cast<uint32_t>(lamp.pieces.size()));
     const double area = static_cast<double>(world.area(t)) / n / n;
     for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) bounds.add(world.position(t, corner));
-    const float step = 1.0f / static_cast<float>(n);
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n - y; ++x)
-        for (int upper = 0; upper < (x + y < n - 1 ? 2 : 1); ++upper) {
-          const Vec2 b(static_cast<float>(x) * step, static_cast<float>(y) * step);
-          MeshLamp::Piece piece;
-          piece.triangle = t;
-          piece.b0 = upper == 1 ? b + Vec2(step, step) : b;
-          piece.b1 = b + Vec2(step, 0);
-          piece.b2 = b + Vec2(0, step);
-          piece.p0 = world.position(t, piece.b0);
-          piece.e1 = world.position(t, piece.b1) - piece.p0;
-          piece.e2 = world.position(t, piece.b2) - piece.p0;
-          piece.normal = world.face_normals[t];
-          piece.emission = material.emission;
-          Rgb mean;
-          for (const Vec2 w : {Vec2(1 / 3.0f), Vec2(0.6f, 0.2f), Vec2(0.2f, 0.6f), Vec2(0.2f)})
-            mean += 0.25f * emission_at(scene, world, t,
-                                        piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
-          lamp.pieces.push_back(piece);
-          areas.push_back(area);
-          relative.push_back(static_cast<double>(luminance(mean) / strength));
-          lamp.area += area;
-          mean_relative += area * relative.back();
-          const double sides = lamp.two_sided ? 2 : 1;
-          flux[0] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.r);
-          flux[1] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.g);
-          flux[2] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.b);
-        }
+    for (uint32_t part = 0; part < static_cast<uint32_t>(n * n); ++part) {
+      MeshLamp::Piece piece;
+      piece.triangle = t;
+      const auto [b0, b1, b2] = grid_corners(part, n);
+      piece.b0 = b0, piece.b1 = b1, piece.b2 = b2;
+      piece.p0 = world.position(t, piece.b0);
+      piece.e1 = world.position(t, piece.b1) - piece.p0;
+      piece.e2 = world.position(t, piece.b2) - piece.p0;
+      piece.normal = world.face_normals[t];
+      piece.emission = material.emission;
+      Rgb mean;
+      for (const Vec2 w : {Vec2(1 / 3.0f), Vec2(0.6f, 0.2f), Vec2(0.2f, 0.6f), Vec2(0.2f)})
+        mean += 0.25f * emission_at(scene, world, t,
+                                    piece.b0 + w.x * (piece.b1 - piece.b0) + w.y * (piece.b2 - piece.b0));
+      lamp.pieces.push_back(piece);
+      areas.push_back(area);
+      relative.push_back(static_cast<double>(luminance(mean) / strength));
+      lamp.area += area;
+      mean_relative += area * relative.back();
+      const double sides = lamp.two_sided ? 2 : 1;
+      flux[0] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.r);
+      flux[1] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.g);
+      flux[2] += sides * static_cast<double>(kPi) * area * static_cast<double>(mean.b);
+    }
   }
   mean_relative /= lamp.area;
   std::vector<double> weights(areas.size());
@@ -138,19 +135,29 @@ bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const 
   return true;
 }
 
+EmittedLight emit(const MeshLamp& lamp, const Scene& scene, const World& world, Vec2 where, Vec2 whither) {
+  const MeshLamp::Piece& piece = lamp.pieces[lamp.table.sample(where.x)];
+  const Vec2 b = square_to_triangle(where);
+  EmittedLight out;
+  out.position = piece.p0 + b.x * piece.e1 + b.y * piece.e2;
+  out.normal = piece.normal;
+  if (lamp.two_sided) {
+    whither.x *= 2;
+    if (whither.x >= 1) out.normal = -out.normal, whither.x -= 1;
+  }
+  out.direction = Frame(out.normal).to_world(square_to_cosine(whither));
+  const Rgb radiance =
+      lamp.uniform ? piece.emission
+                   : emission_at(scene, world, piece.triangle,
+                                 piece.b0 + b.x * (piece.b1 - piece.b0) + b.y * (piece.b2 - piece.b0));
+  out.flux = radiance * (kPi * (lamp.two_sided ? 2.0f : 1.0f) / piece.density);
+  return out;
+}
+
 float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,
           const Vec3& direction) {
   const uint32_t i = triangle - lamp.first_triangle;
-  const int n = lamp.cut[i];
-  std::size_t piece = lamp.first_piece[i];
-  if (n > 1) {
-    const float fx = barycentric.x * static_cast<float>(n), fy = barycentric.y * static_cast<float>(n);
-    const int y = std::clamp(static_cast<int>(fy), 0, n - 1);
-    const int x = std::clamp(static_cast<int>(fx), 0, n - 1 - y);
-    const bool upper = x + y < n - 1 && (fx - static_cast<float>(x)) + (fy - static_cast<float>(y)) > 1;
-    // Row r holds 2 (n - 1 - r) + 1 pieces.
-    piece += static_cast<std::size_t>(y * (2 * n - y) + 2 * x + (upper ? 1 : 0));
-  }
+  const std::size_t piece = lamp.first_piece[i] + grid_part(barycentric, lamp.cut[i]);
   const float cosine = std::abs(glm::dot(direction, world.face_normals[triangle]));
   return cosine > 1e-7f ? lamp.pieces[piece].density * distance * distance / cosine : 0.0f;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/sky.h"
 
+#include "light/punctual.h"
+
 namespace sconce {
 
 namespace {
@@ -86,6 +88,13 @@ bool sample(const SkyLamp& lamp, Vec2 u, LightSample& out) {
   out = {glm::transpose(lamp.to_local) * local, kInfinite, lamp.scale * lamp.image->rgb_at(x, y), density,
          false};
   return true;
+}
+
+EmittedLight emit(const SkyLamp& lamp, const Vec3& center, float radius, Vec2 where, Vec2 whither) {
+  LightSample from;
+  sample(lamp, whither, from);
+  return {on_disk(center, radius, from.direction, where), Vec3(0), -from.direction,
+          from.radiance * (kPi * radius * radius / from.pdf)};
 }
 
 Rgb radiance(const SkyLamp& lamp, const Vec3& direction) {

@@ -10,21 +10,34 @@
 
 namespace sconce {
 
+/// What a path knows of the light at its hits besides what it finds itself: nothing.
+struct NoCache {
+  /// Gather rays for every point at which lamps are sampled.
+  static constexpr uint32_t kRaysPerPoint = 1;
+  /// Adds to the sums throughput times the illuminance at the end of ray number `depth` (0: the receiver's),
+  /// in place of the rest of the path. False: it cannot tell, the path goes on.
+  bool read(const Hit&, uint32_t /*depth*/, const Rgb& /*throughput*/, std::span<double> /*sums*/) {
+    return false;
+  }
+};
+
 /// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met
 /// by the path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
-/// @tparam Rays  has closest(Ray) and occluded(Ray)
-template <class Rays>
+/// @tparam Rays   has closest(Ray) and occluded(Ray)
+/// @tparam Cache  NoCache, or one of the same form
+template <class Rays, class Cache = NoCache>
 class PathKernel {
  public:
   /// @param wanted  SolveContext::wanted
   PathKernel(const Scene& scene, const World& world, const Rays& rays, const Lamps& lamps, int bounces,
-             std::span<const uint8_t> wanted = {})
+             std::span<const uint8_t> wanted = {}, const Cache& cache = {})
       : scene_(scene),
         world_(world),
         rays_(rays),
         lamps_(lamps),
         picker_(lamps),
         bounces_(bounces),
+        cache_(cache),
         budget_(shadow_ray_budget(lamps.size())) {
     for (const Lamp& lamp : lamps.all()) {
       wanted_.push_back(wanted.empty() ? 1 : wanted[lamp.group.value]);
@@ -35,30 +48,43 @@ class PathKernel {
 
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
   void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
+    constexpr uint32_t kSplit = Cache::kRaysPerPoint;
+    if (kSplit > 1 && index % kSplit == 0) {
+      // A sequence of its own: every fourth point of a Sobol sequence lies in one quarter of the square.
+      const uint32_t reversed = detail::reverse_bits(index / kSplit);
+      const SurfacePoint at = receiver.sample(sobol_bits(reversed, kLampPointPair, stream).unit());
+      picker_.aim(at.position, at.shading_normal, budget_.receiver);
+      light_from_lamps(at, sobol_bits(reversed, kLampPair, stream).unit().x,
+                       sobol_bits(reversed, kLampPair + 1, stream), stream, Rgb(1.0f), 1.0f / kSplit, sums);
+    }
     const uint32_t reversed = detail::reverse_bits(index);
     SurfacePoint at = receiver.sample(sobol_bits(reversed, kFootprintPair, stream).unit());
     Rgb throughput{1.0f};
     for (uint32_t depth = 0;; ++depth) {
       const auto bits = [&](uint32_t slot) { return sobol_bits(reversed, 3 * depth + slot, stream); };
       const Vec2 choice = bits(1).unit();
-      const SobolBits on_lamps = bits(2);
-      picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
-      const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
-      const float clearance = 4 * glm::distance(start, at.position);
-      picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
-        next_event(at, start, clearance, lamp, expected,
-                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, sums);
-      });
+      const bool sampled = depth > 0 || kSplit == 1;
+      if (sampled) {
+        picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
+        light_from_lamps(at, choice.x, bits(2), stream ^ depth, throughput, 1, sums);
+      }
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
 
       const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
-      const Hit hit = rays_.closest({start, direction});
+      const Hit hit = rays_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
+      // Expected shadow rays to a lamp for each gather ray: the factor of its density in the MIS weight.
+      bool aimed = sampled;
+      const auto expected = [&](std::size_t lamp) {
+        if (!aimed) picker_.aim(at.position, at.shading_normal, budget_.receiver);
+        aimed = true;
+        return picker_.expected(lamp) * (sampled ? 1.0f : 1.0f / kSplit);
+      };
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
-          const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
+          const float other = expected(sky) * lamps_.sky_pdf(sky, direction);
           add(sums, sky,
               throughput * lamps_.sky_radiance(sky, direction) * (cosine / (other + cosine * kInvPi)));
         }
@@ -68,7 +94,7 @@ class PathKernel {
       if (lamp >= 0) {
         const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
         if (!emission.is_black()) {
-          const float other = picker_.expected(static_cast<std::size_t>(lamp)) *
+          const float other = expected(static_cast<std::size_t>(lamp)) *
                               lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction);
           add(sums, static_cast<uint32_t>(lamp),
               throughput * emission * (cosine / (other + cosine * kInvPi)));
@@ -78,24 +104,32 @@ class PathKernel {
       const Material& material = scene_[world_.materials[hit.triangle]];
       if (hit.back && !material.double_sided) return;
       throughput *= shade(scene_, world_, hit.triangle, hit.barycentric).base_color;
+      if (cache_.read(hit, depth, throughput, sums)) return;
       if (depth >= 1) {
         const float survival = std::min(1.0f, throughput.max());
         if (!(choice.y < survival)) return;
         throughput *= 1 / survival;
       }
       if (throughput.is_black()) return;
-      at.position = world_.position(hit.triangle, hit.barycentric);
-      at.geometric_normal = world_.face_normals[hit.triangle];
-      at.shading_normal = world_.normal(hit.triangle, hit.barycentric);
-      if (hit.back) {
-        at.geometric_normal = -at.geometric_normal;
-        at.shading_normal = -at.shading_normal;
-      }
+      at = surface_point(world_, hit);
     }
   }
 
  private:
-  static constexpr uint32_t kFootprintPair = 0xffffff00u;
+  static constexpr uint32_t kFootprintPair = 0xffffff00u, kLampPointPair = 0xffffff01u,
+                            kLampPair = 0xffffff02u;
+
+  /// Samples lamps at a point that the picker was aimed at.
+  /// @param share  of the points at which lamps are sampled
+  void light_from_lamps(const SurfacePoint& at, float choice, const SobolBits& on_lamps, uint32_t key,
+                        const Rgb& throughput, float share, std::span<double> sums) {
+    const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
+    const float clearance = 4 * glm::distance(start, at.position);
+    picker_.pick(choice, [&](uint32_t lamp, float expected) {
+      next_event(at, start, clearance, lamp, share * expected, on_lamps.scrambled(key ^ lamp << 16).unit(),
+                 throughput, sums);
+    });
+  }
 
   /// @param start      where rays leave the surface
   /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
@@ -126,6 +160,7 @@ class PathKernel {
   const Lamps& lamps_;
   LampPicker picker_;
   int bounces_;
+  Cache cache_;
   RayBudget budget_;
   std::vector<uint8_t> wanted_;  ///< per lamp; which are sampled never depends on it, so bits stay
   bool area_lights_ = false;
@@ -133,8 +168,8 @@ class PathKernel {
 
 /// All samples of one receiver, in batches; shared by the solver and the benchmark that replays its rays.
 /// @param out  one per group
-template <class Rays>
-void solve_receiver(PathKernel<Rays>& kernel, const Footprint& receiver, const BakeParams& params,
+template <class Kernel>
+void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams& params,
                     std::span<GroupValue> out) {
   const std::size_t groups = out.size();
   const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));

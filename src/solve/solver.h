@@ -20,8 +20,11 @@ struct BakeParams {
   int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
   int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
-  double noise = 0;     ///< stop a receiver early when its relative standard error falls below; 0 = never
-  std::string command;  ///< of a row with `runs_program`: what it runs
+  int cloud = 0;            ///< radiosity solver: gather samples; 0 = chosen by it
+  double noise = 0;         ///< stop a receiver early when its relative standard error falls below; 0 = never
+  std::size_t photons = 0;  ///< photon solver: emitted by all lamps together; 0 = by the number of texels
+  bool final_gather = true;           ///< photon solver: rays read the map; false = the receiver itself does
+  std::string command;                ///< of a row with `runs_program`: what it runs
   std::filesystem::path work_folder;  ///< and where its files go
 };
 
@@ -65,7 +68,7 @@ struct SolverRow {
       false;  ///< asked for as NAME:CMD; works on texels of an atlas only, whole pages at once
 };
 
-/// path, external; in this order.
+/// radiosity, path, photon, external; in this order.
 std::span<const SolverRow> solvers();
 /// @param name  of a row; NAME:CMD where it runs a program
 /// @throws UsageError naming the choices

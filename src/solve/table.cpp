@@ -5,13 +5,19 @@
 #include "core/program.h"
 #include "solve/external.h"
 #include "solve/path.h"
+#include "solve/photon.h"
+#include "solve/radiosity.h"
 
 namespace sconce {
 
 std::span<const SolverRow> solvers() {
   static constexpr std::array kRows{
+      SolverRow{"radiosity", "final gather over a radiosity solution on a gather cloud, all groups at once",
+                &make_radiosity_solver},
       SolverRow{"path", "unbiased path tracing with next-event estimation, all groups in one pass",
                 &make_path_solver},
+      SolverRow{"photon", "photon map with final gather: one map and one set of rays for all groups",
+                &make_photon_solver},
       SolverRow{"external", "another program, once per group (docs/external-solvers.md)",
                 &make_external_solver, true},
   };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/receiver.h"
 #include "scene/world.h"
 
 namespace sconce {
@@ -25,6 +26,13 @@ struct Hit {
 
   explicit operator bool() const { return triangle != kMiss; }
 };
+
+/// Where a ray ended, on the side that it came from.
+inline SurfacePoint surface_point(const World& world, const Hit& hit) {
+  const float side = hit.back ? -1.0f : 1.0f;
+  return {world.position(hit.triangle, hit.barycentric), side * world.normal(hit.triangle, hit.barycentric),
+          side * world.face_normals[hit.triangle]};
+}
 
 /// Rays against a World, watertight (Embree's robust mode). Surfaces block from both sides; alpha-masked
 /// texels do not. Thread-safe. The scene and world must outlive it.

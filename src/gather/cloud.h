@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gather cloud: samples spread over all surfaces that reflect, each speaking for the cells around it.
+// Source: system C, "Direct-to-Indirect Transfer" (gather samples); cells instead of nearest-neighbour
+// look-ups are ours.
+#pragma once
+
+#include "gather/owners.h"
+#include "light/lamp.h"
+#include "receive/atlas.h"
+
+namespace sconce {
+
+struct CloudParams {
+  std::size_t samples = 65536;  ///< about
+  uint32_t seed = 1;
+};
+
+class GatherCloud {
+ public:
+  /// Spreads samples by where gather rays from `receivers` (may be null) and light from the lamps land.
+  GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
+              const TexelReceivers* receivers, const CloudParams& params, const Progress& progress = {});
+
+  std::size_t size() const { return areas_.size(); }
+  std::size_t cells() const { return cells_.size(); }
+  bool reflects(const Hit& hit) const { return cells_.reflects(side_index(hit.triangle, hit.back)); }
+  /// Cell of a hit; only for sides that reflect. O(1), as is its owner.
+  uint32_t cell(const Hit& hit) const {
+    return cells_.at(side_index(hit.triangle, hit.back), hit.barycentric);
+  }
+  const Owner& owner(uint32_t cell) const { return ownership_.owners[cell]; }
+  /// A cell as a receiver.
+  Footprint cell_footprint(uint32_t cell) const;
+  /// Mean diffuse reflectance (metals: base colour, as in bounces) of a cell.
+  const Rgb& cell_albedo(uint32_t cell) const { return cell_albedos_[cell]; }
+
+  /// m2, of the cells that a sample speaks for
+  float area(std::size_t i) const { return areas_[i]; }
+  /// Mean diffuse reflectance over these cells.
+  const Rgb& albedo(std::size_t i) const { return albedos_[i]; }
+  /// A sample as a receiver: its cells.
+  Footprint footprint(std::size_t i) const;
+  /// Distance between samples around sample i, m.
+  float spacing(std::size_t i) const { return std::sqrt(areas_[i]); }
+  /// Share of the surface, by area, whose cells have this trust in their sample.
+  double share(Trust trust) const { return shares_[static_cast<std::size_t>(trust)]; }
+
+ private:
+  void collect();
+
+  const World* world_;
+  SurfaceCells cells_;
+  Ownership ownership_;
+  std::vector<uint32_t> first_, owned_;  ///< CSR: cells that each sample speaks for
+  std::vector<float> areas_;
+  std::vector<Rgb> albedos_, cell_albedos_;
+  std::array<double, 3> shares_{};
+};
+
+}  // namespace sconce

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/radiosity.h"
+
+#include <atomic>
+
+#include "core/parallel.h"
+#include "gather/rows.h"
+#include "solve/path_kernel.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr uint32_t kDirectSamples = 4;     // per cell
+constexpr std::size_t kRowRays = 1 << 24;  // in all
+constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
+
+/// What receivers' rays read.
+struct RadiosityCache {
+  static constexpr uint32_t kRaysPerPoint = 4;
+
+  const GatherCloud* cloud = nullptr;
+  const float* direct = nullptr;  ///< cells x 3 groups
+  /// samples x 3 groups: light at the ends of receivers' own rays; at those of rays that went on once
+  const float *first = nullptr, *second = nullptr;
+  int bounces = -1;
+
+  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, std::span<double> sums) const {
+    if (depth >= 2 && bounces >= 0) return false;
+    const uint32_t cell = cloud->cell(hit);
+    const Owner owner = cloud->owner(cell);
+    if (owner.trust != Trust::whole || hit.distance < kShort * cloud->spacing(owner.sample)) return false;
+    const float* light = direct + sums.size() * cell;
+    const float* more = (depth == 0 ? first : second) + sums.size() * owner.sample;
+    for (std::size_t g = 0; g < sums.size(); g += 3) {
+      sums[g] += static_cast<double>(throughput.r * (light[g] + more[g]));
+      sums[g + 1] += static_cast<double>(throughput.g * (light[g + 1] + more[g + 1]));
+      sums[g + 2] += static_cast<double>(throughput.b * (light[g + 2] + more[g + 2]));
+    }
+    return true;
+  }
+};
+
+class RadiositySolver final : public Solver {
+ public:
+  RadiositySolver(const SolveContext& context, const BakeParams& params, const Progress& progress)
+      : context_(context), params_(params) {
+    if (params.bounces == 0) return;
+    CloudParams cloud;
+    cloud.seed = params.seed;
+    if (params.cloud > 0)
+      cloud.samples = static_cast<std::size_t>(params.cloud);
+    else if (context.receivers == nullptr)
+      cloud.samples = 2048;
+    cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
+                                           context.receivers, cloud, progress);
+    direct_ = direct_light(progress);
+    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
+    DirectLight direct;
+    direct.groups = context.scene.groups.size();
+    direct.on_cells = direct_;
+    direct.at_point = [&](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
+      PathKernel<Tracer> kernel(context.scene, context.world, context.tracer, context.lamps, 0,
+                                context.wanted);
+      kernel.sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+    };
+    const Gathered gathered =
+        gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress);
+    const auto indirect = [&](int bounces) {
+      return bounce(gathered.rows, *cloud_, gathered.once, bounces, progress);
+    };
+    if (params.bounces < 0) {
+      first_ = indirect(enough_bounces(gathered.rows, *cloud_));
+    } else {
+      first_ = indirect(params.bounces - 1);
+      second_ = indirect(params.bounces - 2);
+    }
+  }
+
+  void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
+    RadiosityCache cache;
+    cache.cloud = cloud_.get();
+    cache.bounces = params_.bounces;
+    cache.direct = direct_.data();
+    cache.first = first_.data();
+    cache.second = params_.bounces < 0 ? first_.data() : second_.data();
+    PathKernel<Tracer, RadiosityCache> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
+                                              params_.bounces, context_.wanted, cache);
+    solve_receiver(kernel, receiver, params_, out);
+  }
+
+ private:
+  /// Direct illuminance on the cloud's cells, cells x 3 groups; black where they are not trusted wholly.
+  std::vector<float> direct_light(const Progress& progress) const {
+    const std::size_t width = 3 * context_.scene.groups.size();
+    std::vector<float> direct(width * cloud_->cells());
+    const uint32_t seed = mix32(params_.seed, 0x64697265u);
+    std::atomic<uint64_t> done = 0;
+    constexpr std::size_t kBlock = 4096;
+    const std::size_t blocks = (cloud_->cells() + kBlock - 1) / kBlock;
+    parallel_for(blocks, 1, [&](std::size_t block) {
+      progress.check();
+      PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps, 0,
+                                context_.wanted);
+      std::vector<double> sums(width);
+      for (std::size_t c = block * kBlock; c < std::min(cloud_->cells(), (block + 1) * kBlock); ++c) {
+        const auto cell = static_cast<uint32_t>(c);
+        if (cloud_->owner(cell).trust != Trust::whole) continue;
+        const Footprint footprint = cloud_->cell_footprint(cell);
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (uint32_t s = 0; s < kDirectSamples; ++s) kernel.sample(footprint, mix32(seed, cell), s, sums);
+        for (std::size_t g = 0; g < width; ++g)
+          direct[width * c + g] = static_cast<float>(sums[g] / kDirectSamples);
+      }
+      progress.at("light on the cloud", ++done, blocks);
+    });
+    return direct;
+  }
+
+  SolveContext context_;
+  BakeParams params_;
+  std::unique_ptr<GatherCloud> cloud_;  ///< null for direct light only
+  std::vector<float> direct_;           ///< on its cells
+  std::vector<float> first_, second_;   ///< reflected, on its samples
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_radiosity_solver(const SolveContext& context, const BakeParams& params,
+                                              const Progress& progress) {
+  return std::make_unique<RadiositySolver>(context, params, progress);
+}
+
+}  // namespace sconce
