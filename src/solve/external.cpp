@@ -66,14 +66,18 @@ class ExternalSolver final : public Solver {
     std::vector<std::string> words = words_;
     words.push_back(job.file.string());
     std::error_code ignored;
+    const auto discard = [&] {
+      fs::remove_all(job.folder, ignored);
+      fs::remove(job.folder.parent_path(), ignored);
+    };
     int code = 0;
     try {
       code = run_program(words, job.folder / "stdout.txt", err, progress);
     } catch (const Cancelled&) {
-      fs::remove_all(job.folder, ignored);
-      fs::remove(job.folder.parent_path(), ignored);
+      discard();
       throw;
     } catch (const Error& error) {
+      discard();
       throw Error(where, error.what());
     }
     const std::string said = last_words(err);
