@@ -19,14 +19,34 @@ from materials import Materials  # noqa: E402
 MARGIN = 2  # texels around charts that Cycles fills: it bakes a texel only where the chart covers its centre
 
 
-def build_object(name, glb, instances, materials, targets, lightmap_set):
-    """All given instances as one mesh: Cycles bakes object by object, each from the beginning. World space as in the file,
-    y up: nothing in a bake knows where up is."""
+def coincident(glb, instances):
+    """Per instance, per triangle: how many triangles lie in the same place, and which of them this is. Twins do, and so may
+    careless copies."""
+    faces = []
+    for instance in instances:
+        attributes, indices, _ = glb.mesh(instance["node"])
+        faces.append(attributes["POSITION"][indices])
+    every = np.concatenate(faces).reshape(-1, 3) + np.float32(0)  # -0 is 0
+    _, corner = np.unique(every, axis=0, return_inverse=True)
+    _, place, counts = np.unique(np.sort(corner.reshape(-1, 3), axis=1), axis=0, return_inverse=True, return_counts=True)
+    place = place.ravel()
+    order = np.argsort(place, kind="stable")
+    begin = np.cumsum(counts) - counts
+    rank = np.empty(len(place), int)
+    rank[order] = np.arange(len(place)) - np.repeat(begin, counts)
+    ends = np.cumsum([len(f) for f in faces])[:-1]
+    return list(zip(np.split(counts[place], ends), np.split(rank, ends)))
+
+
+def build_object(name, glb, pieces, materials, targets, lightmap_set):
+    """pieces: (instance, which of its triangles), as one mesh, because Cycles bakes object by object, each from the beginning.
+    World space as in the file, y up: nothing in a bake knows where up is."""
     slots, positions, normals, triangles, indices = {}, [], [], [], []
     sets = {}
     count = 0
-    for instance in instances:
+    for instance, chosen in pieces:
         attributes, faces, material = glb.mesh(instance["node"])
+        faces = faces[chosen]
         slot = slots.setdefault((material, instance["page"]), len(slots))
         position = attributes["POSITION"]
         corner = position[faces]
@@ -133,30 +153,24 @@ def main(arguments):
     for index, (light, frame) in enumerate(glb.lamps()):
         add_lamp(light, frame, index)
 
-    # Front and twin lie in the same place, and only one may be there at a time.
-    instances = job["instances"]
-    with_twin = {i["twin_of"] for i in instances if i["twin_of"] is not None}
-    parts = {"fronts": [], "twins": [], "single": [], "unlit": []}
-    for index, instance in enumerate(instances):
-        if instance["twin_of"] is not None:
-            parts["twins"].append(instance)
-        elif index in with_twin:
-            parts["fronts"].append(instance)
-        else:
-            parts["single" if instance["page"] >= 0 else "unlit"].append(instance)
+    # What lies in the same place would shade itself, so only one may be there at a time: objects by number and rank.
+    parts = {}
+    for instance, (counts, ranks) in zip(job["instances"], coincident(glb, job["instances"])):
+        for count, rank in sorted(set(zip(counts.tolist(), ranks.tolist()))):
+            part = parts.setdefault((count, rank, instance["page"] >= 0), [])
+            part.append((instance, (counts == count) & (ranks == rank)))
     materials = Materials(glb)
     things = {
-        name: build_object(name, glb, some, materials, targets, job["lightmap_set"])
-        for name, some in parts.items()
-        if some
+        key: build_object("part " + "-".join(map(str, key)), glb, pieces, materials, targets, job["lightmap_set"])
+        for key, pieces in sorted(parts.items())
     }
     ready = time.monotonic()
-    for name in ("single", "fronts", "twins"):
-        for hidden, other in (("fronts", "twins"), ("twins", "fronts")):
-            if hidden in things and other in things:
-                things[hidden].hide_render = (name == "twins") == (hidden == "fronts")
-        if name in things and any(i["page"] >= 0 for i in parts[name]):
-            bake_object(things[name])
+    for now in sorted(things, key=lambda key: key[1]):
+        if not now[2]:
+            continue
+        for (count, rank, _), thing in things.items():
+            thing.hide_render = rank != (now[1] if now[1] < count else 0)
+        bake_object(things[now])
     baked = time.monotonic()
 
     for image, path in zip(targets, job["outputs"]):
