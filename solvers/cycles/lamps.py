@@ -12,7 +12,7 @@ from glb import matrix
 def add_lamp(light, frame, index):
     kind = light["type"]
     name = f"lamp {index}"
-    data = bpy.data.lights.new(name, {"point": "POINT", "spot": "SPOT", "directional": "SUN"}[kind])
+    data = bpy.data.lights.new(name, "SUN" if kind == "directional" else "POINT")
     intensity = light.get("intensity", 1)
     data.color = light.get("color", [1, 1, 1])
     if kind == "directional":
@@ -22,9 +22,6 @@ def add_lamp(light, frame, index):
         data.energy = 1
         data.shadow_soft_size = 0
         shape_by_nodes(data, light, intensity, frame)
-    if kind == "spot":
-        data.spot_size = math.pi  # the cone is in the nodes
-        data.spot_blend = 0
     data.cycles.max_bounces = 1024
     data.cycles.cast_shadow = True
     object_ = bpy.data.objects.new(name, data)
@@ -33,7 +30,7 @@ def add_lamp(light, frame, index):
 
 
 def shape_by_nodes(data, light, intensity, frame):
-    """Cone and range of KHR_lights_punctual, which Blender's own lamps do not have."""
+    """Cone and range of KHR_lights_punctual, which Blender's own lamps do not have (its spot dims by the cosine, too)."""
     data.use_nodes = True
     tree = data.node_tree
     tree.nodes.clear()
@@ -49,8 +46,8 @@ def shape_by_nodes(data, light, intensity, frame):
                 tree.links.new(value, socket)
         return node.outputs[0]
 
-    # A point lamp of 1 W in Blender shines with 1 / (4 pi^2) W/sr, as does a spot before its cone.
-    strength = float(intensity) * 4 * math.pi**2
+    # Found by a lamp over a plane (tests/cycles_test.cpp): by nodes, strength 1 is 1 / (4 pi) W/sr.
+    strength = float(intensity) * 4 * math.pi
     if light["type"] == "spot":
         cone = light.get("spot", {})
         outer = math.cos(cone.get("outerConeAngle", math.pi / 4))

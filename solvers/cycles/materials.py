@@ -60,6 +60,7 @@ class Materials:
             clear = graph.node("ShaderNodeBsdfTransparent")
             opacity = graph.math("MULTIPLY", factor[3], alpha)
             keep = graph.math("GREATER_THAN", opacity, source.get("alphaCutoff", 0.5) - 1e-6)
+            keep = graph.math("MAXIMUM", keep, receiver)  # a hole is no receiver, but its texels have a value
             shader = graph.shader("ShaderNodeMixShader", clear.outputs[0], shader, keep)
         graph.put(shader, graph.node("ShaderNodeOutputMaterial").inputs["Surface"])
 
