@@ -19,18 +19,22 @@ struct LightmapError {
   std::size_t texels = 0;
 };
 
-/// Interior texels: receivers whose eight neighbours are receivers too. At a chart's edge bakers differ in
-/// what part of a texel counts.
+/// Interior texels: neither the texel nor its eight neighbours are cut by the edge of a chart or partly
+/// buried, so that their weights (surface area) agree within 10 %. Elsewhere bakers differ in what part of a
+/// texel counts.
 inline std::vector<uint8_t> interior_texels(const Image& receivers) {
   const int weight = receivers.channel("weight");
   std::vector<uint8_t> inside(receivers.pixels(), 0);
   for (int y = 1; y + 1 < receivers.height; ++y)
     for (int x = 1; x + 1 < receivers.width; ++x) {
-      bool all = true;
+      float least = receivers.at(x, y)[weight], most = least;
       for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) all = all && receivers.at(x + dx, y + dy)[weight] > 0;
+        for (int dx = -1; dx <= 1; ++dx) {
+          least = std::min(least, receivers.at(x + dx, y + dy)[weight]);
+          most = std::max(most, receivers.at(x + dx, y + dy)[weight]);
+        }
       inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(receivers.width) +
-             static_cast<std::size_t>(x)] = all;
+             static_cast<std::size_t>(x)] = least > 0.9f * most;
     }
   return inside;
 }

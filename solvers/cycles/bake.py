@@ -8,7 +8,12 @@ import sys
 import time
 
 import bpy
-import numpy as np
+
+try:
+    import numpy as np
+except ModuleNotFoundError:  # another python3 comes first in PATH, and Debian's Blender looks for packages beside it
+    sys.path.append("/usr/lib/python3/dist-packages")
+    import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from exr import write_exr  # noqa: E402
@@ -129,13 +134,18 @@ def bake_object(thing):
         raise SystemExit(f"Cycles did not bake '{thing.name}'")
 
 
+def clocks():
+    """Seconds: wall, CPU of all threads."""
+    return time.monotonic(), time.process_time()
+
+
 def main(arguments):
     times = None
     if arguments[:1] == ["--times"]:
         times, arguments = arguments[1], arguments[2:]
     if len(arguments) != 1:
         raise SystemExit("usage: sconce-cycles [--times FILE] job.json")
-    start = time.monotonic()
+    start = clocks()
     with open(arguments[0], encoding="utf-8") as file:
         job = json.load(file)
     if job["version"] != 1:
@@ -164,14 +174,14 @@ def main(arguments):
         key: build_object("part " + "-".join(map(str, key)), glb, pieces, materials, targets, job["lightmap_set"])
         for key, pieces in sorted(parts.items())
     }
-    ready = time.monotonic()
+    ready = clocks()
     for now in sorted(things, key=lambda key: key[1]):
         if not now[2]:
             continue
         for (count, rank, _), thing in things.items():
             thing.hide_render = rank != (now[1] if now[1] < count else 0)
         bake_object(things[now])
-    baked = time.monotonic()
+    baked = clocks()
 
     for image, path in zip(targets, job["outputs"]):
         pixels = np.empty(job["width"] * job["height"] * 4, np.float32)
@@ -179,9 +189,11 @@ def main(arguments):
         # Cycles bakes the radiosity of a white surface over pi. Its first row is v = 0, as is sconce's.
         write_exr(path, pixels.reshape(job["height"], job["width"], 4)[:, :, :3] * np.float32(math.pi))
     if times is not None:
+        row = {"group": job["group"], "samples": job["samples"], "seed": job["seed"]}
+        for stage, (begin, end) in {"setup": (start, ready), "bake": (ready, baked)}.items():
+            row |= {f"{stage}_s": end[0] - begin[0], f"{stage}_cpu_s": end[1] - begin[1]}
         with open(times, "a", encoding="utf-8") as file:
-            file.write(json.dumps({"group": job["group"], "samples": job["samples"], "seed": job["seed"],
-                                   "setup_s": ready - start, "bake_s": baked - ready}) + "\n")
+            file.write(json.dumps(row) + "\n")
 
 
 main(sys.argv[sys.argv.index("--") + 1 :])
