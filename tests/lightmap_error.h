@@ -3,6 +3,7 @@
 // join charts.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -42,9 +43,11 @@ inline std::vector<uint8_t> interior_texels(const Image& receivers) {
 /// Over interior texels and channels, with r = (s0 + s1) / 2:
 ///   rmse = sqrt(max(0, mean (package - r)^2 - mean (s0 - s1)^2 / 4)) / mean r
 /// @param s0, s1  independent bakes of the reference
+/// @param drop  share of texels, those of the largest error, to leave out: one firefly else decides the
+/// figure
 /// @throws Error when groups or atlas differ
 inline std::vector<LightmapError> lightmap_errors(const Package& package, const Package& s0,
-                                                  const Package& s1) {
+                                                  const Package& s1, double drop = 0) {
   const Manifest& m = package.manifest();
   for (const Package* other : {&s0, &s1}) {
     const Manifest& o = other->manifest();
@@ -53,37 +56,47 @@ inline std::vector<LightmapError> lightmap_errors(const Package& package, const 
       throw Error(other->path().string(),
                   "has another atlas or other groups than " + package.path().string());
   }
-  std::vector<LightmapError> result;
+  struct Texel {  // sums over channels
+    double square = 0, noise = 0, reference = 0, luma = 0, reference_luma = 0;
+  };
+  const auto luma = [](const Image& image, std::size_t i) {
+    return static_cast<double>(
+        luminance(Rgb(image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2])));
+  };
   std::vector<std::vector<uint8_t>> inside;
   for (int p = 0; p < m.pages; ++p) inside.push_back(interior_texels(package.receivers(p)));
+  std::vector<LightmapError> result;
   for (std::size_t g = 0; g < m.groups.size(); ++g) {
-    LightmapError error;
-    error.group = m.groups[g].name;
-    double squares = 0, noise = 0, mean = 0, luma = 0, reference_luma = 0;
+    std::vector<Texel> texels;
     for (int p = 0; p < m.pages; ++p) {
       const Image a = package.layer(g, p), b0 = s0.layer(g, p), b1 = s1.layer(g, p);
       for (std::size_t i = 0; i < inside[static_cast<std::size_t>(p)].size(); ++i) {
         if (inside[static_cast<std::size_t>(p)][i] == 0) continue;
-        ++error.texels;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const double v0 = static_cast<double>(b0.data[3 * i + c]),
-                       v1 = static_cast<double>(b1.data[3 * i + c]);
-          const double d = static_cast<double>(a.data[3 * i + c]) - (v0 + v1) / 2;
-          squares += d * d;
-          noise += (v0 - v1) * (v0 - v1) / 4;
-          mean += (v0 + v1) / 2;
+        Texel texel;
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+          const double v0 = static_cast<double>(b0.data[c]), v1 = static_cast<double>(b1.data[c]);
+          const double d = static_cast<double>(a.data[c]) - (v0 + v1) / 2;
+          texel.square += d * d;
+          texel.noise += (v0 - v1) * (v0 - v1) / 4;
+          texel.reference += (v0 + v1) / 2;
         }
-        luma += static_cast<double>(luminance(Rgb(a.data[3 * i], a.data[3 * i + 1], a.data[3 * i + 2])));
-        for (const Image* b : {&b0, &b1})
-          reference_luma += 0.5 * static_cast<double>(
-                                      luminance(Rgb(b->data[3 * i], b->data[3 * i + 1], b->data[3 * i + 2])));
+        texel.luma = luma(a, i);
+        texel.reference_luma = (luma(b0, i) + luma(b1, i)) / 2;
+        texels.push_back(texel);
       }
     }
-    const double n = 3 * static_cast<double>(error.texels);
-    error.mean_ratio = luma / reference_luma;
-    error.rmse = std::sqrt(std::max(0.0, squares - noise) / n) / (mean / n);
-    error.noise = std::sqrt(noise / n) / (mean / n);
-    result.push_back(error);
+    std::stable_sort(texels.begin(), texels.end(),
+                     [](const Texel& x, const Texel& y) { return x.square < y.square; });
+    texels.resize(texels.size() - static_cast<std::size_t>(drop * static_cast<double>(texels.size())));
+    Texel sum;
+    for (const Texel& texel : texels) {
+      sum.square += texel.square, sum.noise += texel.noise, sum.reference += texel.reference;
+      sum.luma += texel.luma, sum.reference_luma += texel.reference_luma;
+    }
+    const double n = 3 * static_cast<double>(texels.size()), mean = sum.reference / n;
+    result.push_back({m.groups[g].name, sum.luma / sum.reference_luma,
+                      std::sqrt(std::max(0.0, sum.square - sum.noise) / n) / mean,
+                      std::sqrt(sum.noise / n) / mean, texels.size()});
   }
   return result;
 }

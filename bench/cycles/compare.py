@@ -26,6 +26,7 @@ def parse():
     parser.add_argument("--samples", default="32,128,512", help="of sconce, two or more (default: 32,128,512)")
     parser.add_argument("--cycles-samples", default="32,128,512", help="of Cycles")
     parser.add_argument("--reference", type=int, default=4096, help="paths per texel in each of the two references (default: 4096)")
+    parser.add_argument("--drop", type=float, default=0.001, help="share of texels, the worst, to leave out (default: 0.001)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of both")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall", help="cpu: of all threads, for a machine that has more to do")
     parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
@@ -75,7 +76,7 @@ class Bench:
 
     def errors(self, package, references):
         """group -> (relative RMSE, relative noise of the reference)"""
-        text = subprocess.run([self.options.build / "tests/lightmap_error", package, *references], check=True,
+        text = subprocess.run([self.options.build / "tests/lightmap_error", package, *references, str(self.options.drop)], check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         rows = [line.split(" ", 4) for line in text.splitlines()]
         return {row[4]: (float(row[0]), float(row[2])) for row in rows}, int(rows[0][3])
@@ -136,8 +137,8 @@ def samples_for(target, floor, variance):
     return variance / left if left > 0 else math.inf
 
 
-def number(x, digits=3):
-    return "never" if math.isinf(x) else f"{x:.{digits}g}"
+def number(x, unit=""):
+    return "never" if math.isinf(x) else f"{x:.3g}{unit}"
 
 
 def compare(bench, case):
@@ -170,7 +171,7 @@ def compare(bench, case):
         needed = max(samples_for(target, *mine) for mine, _, _ in fits.values())
         mine = ready + per_sample * needed
         cycles = sum(setup + rate * samples_for(target, 0, variance) for _, (setup, rate), (_, variance) in fits.values())
-        summary.append(f"| {name} | {100 * target:.0f} % | {number(cycles)} s | {number(mine)} s | {number(needed)} | "
+        summary.append(f"| {name} | {100 * target:.0f} % | {number(cycles, ' s')} | {number(mine, ' s')} | {number(needed)} | "
                        f"{'-' if math.isinf(mine) else f'{cycles / mine:.1f} ×'} |")
     return summary, details
 
