@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What light groups cost: time of a bake with one group, named groups and one group per lamp at the same
 // number of paths; and each group's noise against that of a bake of its lamps alone (the others not emitting)
-// with the same number of paths. Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels; or groups
-// SCENE [SAMPLES]. Every 32nd tile is measured.
+// with the same number of paths, and what the common bake costs of the lone one's time where it goes on until
+// the group has the lone one's noise. Default: modern-hall below SCONCE_TEST_DATA at 512 x 512 texels; or
+// groups SCENE [SAMPLES [SOLVER]]; SCENE `eight` is a room with eight lamps. Every 32nd tile is measured.
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 
 #include "core/parallel.h"
 #include "import/import.h"
 #include "receive/atlas.h"
 #include "scene/groups.h"
+#include "scene/shapes.h"
 #include "solve/solver.h"
 
 using namespace sconce;
@@ -29,15 +32,17 @@ struct Result {
 
 /// Bakes the measured tiles of a scene whose charts are `receivers`.
 Result bake(const Scene& scene, const World& world, const Tracer& tracer, const TexelReceivers& receivers,
-            int samples) {
+            int samples, const char* name) {
   const Lamps lamps(scene, world);
   BakeParams params;
   params.samples = samples;
-  const auto solver = find_solver("path").prepare({scene, world, tracer, lamps}, params, {});
+  const auto solver =
+      find_solver(name).prepare({scene, world, tracer, lamps, nullptr, &receivers}, params, {});
   const std::size_t groups = scene.groups.size(), tiles = (receivers.tiles() + kEvery - 1) / kEvery;
   std::vector<std::vector<double>> sums(tiles, std::vector<double>(2 * groups));
   std::vector<std::size_t> counts(tiles);
-  const auto start = std::chrono::steady_clock::now();
+  // CPU time of all threads: a busy machine does not lengthen it much.
+  const std::clock_t start = std::clock();
   parallel_for(tiles, 1, [&](std::size_t k) {
     std::vector<GroupValue> out(groups);
     const std::size_t first = k * kEvery * TexelReceivers::kTile;
@@ -51,7 +56,7 @@ Result bake(const Scene& scene, const World& world, const Tracer& tracer, const 
     }
   });
   Result result;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   double count = 0;
   for (const std::size_t n : counts) count += static_cast<double>(n);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -62,6 +67,23 @@ Result bake(const Scene& scene, const World& world, const Tracer& tracer, const 
     result.names.push_back(scene.groups[g].name);
   }
   return result;
+}
+
+/// A furnished room with a grid of ceiling lamps.
+Scene eight_lamps() {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "white", Rgb(0.7f)), Vec3(-4, 0, -2), Vec3(4, 3, 2), true);
+  const auto wood = add_material(scene, "wood", Rgb(0.5f, 0.35f, 0.2f));
+  for (int i = 0; i < 4; ++i)
+    add_box(scene, fmt::format("table {}", i), wood, Vec3(2 * i - 3.5f, 0, -0.5f),
+            Vec3(2 * i - 2.5f, 0.8f, 0.5f), false);
+  for (int i = 0; i < 8; ++i) {
+    const auto glow = add_material(scene, fmt::format("glow {}", i), Rgb(0), Rgb(1000));
+    add_quad(scene, fmt::format("lamp {}", i), glow,
+             Vec3(2 * static_cast<float>(i / 2) - 3.1f, 2.99f, i % 2 == 0 ? -1.1f : 0.9f), Vec3(0.2f, 0, 0),
+             Vec3(0, 0, 0.2f));
+  }
+  return scene;
 }
 
 double median(std::vector<double> v) {
@@ -76,8 +98,9 @@ int main(int argc, char** argv) {
   const std::string path =
       argc > 1 ? argv[1] : std::string(data != nullptr ? data : "../shared/data") + "/glb/modern-hall.glb";
   const int samples = argc > 2 ? std::atoi(argv[2]) : 64;
+  const char* solver = argc > 3 ? argv[3] : "radiosity";
   try {
-    Scene scene = import_scene(path);
+    Scene scene = path == "eight" ? eight_lamps() : import_scene(path);
     const World world = make_world(scene);
     const Tracer tracer(scene, world);
     AtlasParams params;
@@ -92,18 +115,21 @@ int main(int argc, char** argv) {
       double base = 0;
       for (int m = 0; m < 3; ++m) {
         assign_groups(scene, modes[m]);
-        results[m] = bake(scene, world, tracer, receivers, samples);
+        results[m] = bake(scene, world, tracer, receivers, samples, solver);
         if (m == 0) base = results[m].seconds;
         ratios[m].push_back(results[m].seconds / base);
       }
     }
-    fmt::print("time at the same number of paths, median of five pairs\n");
+    fmt::print("{}, solver {}, {} samples\nCPU time at the same number of paths, median of five pairs\n",
+               path, solver, samples);
     for (int m = 0; m < 3; ++m)
       fmt::print("  {:>3} groups: {:.3f} x one group ({:.2f} s)\n", results[m].names.size(),
                  median(ratios[m]), results[m].seconds);
 
     for (int m = 1; m < 3; ++m) {
-      fmt::print("relative noise of {} groups, together and alone\n", results[m].names.size());
+      fmt::print("relative noise of {} groups, together and alone; cost to the same noise\n",
+                 results[m].names.size());
+      std::vector<double> costs;
       for (std::size_t g = 0; g < results[m].names.size(); ++g) {
         assign_groups(scene, modes[m]);
         Scene alone = scene;
@@ -119,12 +145,16 @@ int main(int argc, char** argv) {
         }
         std::erase_if(alone.lights, [&](const Light& light) { return light.group.value != g; });
         const World alone_world = make_world(alone);
-        const Result single = bake(alone, alone_world, tracer, receivers, samples);
+        const Result single = bake(alone, alone_world, tracer, receivers, samples, solver);
         const double together = results[m].error[g] / results[m].mean[g],
                      by_itself = single.error[g] / single.mean[g];
-        fmt::print("  {:<24} {:>8.1f} % {:>8.1f} %  {:.2f} x\n", results[m].names[g], 100 * together,
-                   100 * by_itself, together / by_itself);
+        const double ratio = together / by_itself;
+        costs.push_back(results[m].seconds / single.seconds * ratio * ratio);
+        fmt::print("  {:<24} {:>8.1f} % {:>8.1f} %  {:.2f} x  {:.2f} x\n", results[m].names[g],
+                   100 * together, 100 * by_itself, ratio, costs.back());
       }
+      fmt::print("  all of them, each to its own noise: {:.2f} x the mean lone bake\n",
+                 *std::max_element(costs.begin(), costs.end()));
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "groups: {}\n", error.what());

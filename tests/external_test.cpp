@@ -137,6 +137,9 @@ TEST_F(External, LampsOfOtherGroupsStayAway) {
 struct Failure {
   const char *mode, *says, *file;
 };
+void PrintTo(const Failure& failure, std::ostream* out) {
+  *out << failure.mode;
+}
 class ExternalFails : public External, public testing::WithParamInterface<Failure> {};
 INSTANTIATE_TEST_SUITE_P(
     Modes, ExternalFails,

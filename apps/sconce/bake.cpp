@@ -151,6 +151,8 @@ int run_bake(int argc, const char* const* argv) {
   options.option("--samples", &samples, "paths per texel, instead of --quality");
   options.option("--noise", &noise, "stop a texel early at this relative standard error, e.g. 2%");
   options.option("--bounces", &bounces, "reflections; 0 = direct light only, -1 = unbounded");
+  options.option("--cloud", &job.params.cloud,
+                 "radiosity solver: gather samples (default: one for four texels, 4096 to 65536)");
   options.option("--photons", &photons,
                  "photon solver: emitted by all lamps together (default: 4 per texel, 0.5 to 4 M)");
   options.flag("--direct-estimate", &direct_estimate,
@@ -177,10 +179,16 @@ int run_bake(int argc, const char* const* argv) {
     throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
   if (photons < 0 || photons > 1e9)
     throw UsageError("--photons", fmt::format("{} is out of range", photons), "1 to 1000000000");
-  for (const auto& [given, option] :
-       {std::pair(photons > 0, "--photons"), {direct_estimate, "--direct-estimate"}})
-    if (given && job.solver != "photon")
-      throw UsageError(option, "means nothing to the solver " + job.solver, "--solver photon");
+  if (job.params.cloud < 0 || job.params.cloud > 1 << 24)
+    throw UsageError("--cloud", fmt::format("{} is out of range", job.params.cloud), "1 to 16777216");
+  const std::tuple<bool, const char*, const char*> own_options[] = {
+      {job.params.cloud > 0, "--cloud", "radiosity"},
+      {photons > 0, "--photons", "photon"},
+      {direct_estimate, "--direct-estimate", "photon"}};
+  for (const auto& [given, option, solver] : own_options)
+    if (given && job.solver != solver)
+      throw UsageError(option, "means nothing to the solver " + job.solver,
+                       std::string("--solver ") + solver);
   if (noise > 0 && samples == 0) samples = samples_of("final");
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;

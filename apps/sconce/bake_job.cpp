@@ -33,6 +33,7 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
   hash.text(job.grouping).text(job.solver).text("flat");
   hash.value(job.params.seed)
       .value(job.params.bounces)
+      .value(job.params.cloud)
       .value(job.params.photons)
       .value(job.params.final_gather);
   hash.value(job.atlas.page_size).value(job.atlas.max_page).value(job.atlas.density).value(job.atlas.gutter);
@@ -78,6 +79,7 @@ std::string BakeJob::to_json() const {
                                {"bounces", params.bounces},
                                {"seed", params.seed},
                                {"noise", params.noise},
+                               {"cloud", params.cloud},
                                {"photons", params.photons},
                                {"final_gather", params.final_gather}};
   return json.dump();
@@ -98,6 +100,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("bounces").get_to(job.params.bounces);
     json.at("seed").get_to(job.params.seed);
     json.at("noise").get_to(job.params.noise);
+    json.at("cloud").get_to(job.params.cloud);
     json.at("photons").get_to(job.params.photons);
     json.at("final_gather").get_to(job.params.final_gather);
     return job;

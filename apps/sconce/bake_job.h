@@ -15,7 +15,7 @@ namespace sconce::app {
 struct BakeJob {
   std::filesystem::path scene;  ///< absolute
   std::string grouping = "auto";
-  std::string solver = "path";
+  std::string solver = "radiosity";
   std::string encoding =
       "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
   AtlasParams atlas;

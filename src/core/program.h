@@ -11,10 +11,9 @@
 
 namespace sconce {
 
-/// A command line as words. The path of an existing file is one word. Otherwise words end at blanks; '...'
-/// and
-/// "..." keep them, a backslash keeps the next character (but not inside '...'). No other shell syntax
-/// exists.
+/// A command line as words. The path of an existing file is one word. Otherwise words end at blanks;
+/// '...' and "..." keep them, a backslash keeps the next character (but not inside '...'); no other shell
+/// syntax.
 /// @throws UsageError: no word, a quote without its end
 std::vector<std::string> command_words(const std::string& command);
 

@@ -100,15 +100,15 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
 }
 
 void GatherCloud::collect() {
-  const std::size_t n = ownership_.seeds.size();
+  const std::size_t n = ownership_.samples->size();
   // Cells in part hidden from their sample (below furniture, beyond a wall) would darken it: where rays end,
   // it is not hidden. They count only for samples that have no others.
-  std::vector<Trust> least(n, Trust::middle);
+  least_.assign(n, Trust::middle);
   for (const Owner& owner : ownership_.owners)
-    if (owner.trust == Trust::whole) least[owner.sample] = Trust::whole;
+    if (owner.trust == Trust::whole) least_[owner.sample] = Trust::whole;
   first_.assign(n + 1, 0);
   for (const Owner& owner : ownership_.owners)
-    if (owner.trust >= least[owner.sample]) ++first_[owner.sample + 1];
+    if (owner.trust >= least_[owner.sample]) ++first_[owner.sample + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   owned_.resize(first_.back());
   areas_.assign(n, 0);
@@ -120,7 +120,7 @@ void GatherCloud::collect() {
     const float area = cells_.area(*world_, c);
     shares_[static_cast<std::size_t>(owner.trust)] += static_cast<double>(area);
     all += static_cast<double>(area);
-    if (owner.trust < least[owner.sample]) continue;
+    if (owner.trust < least_[owner.sample]) continue;
     owned_[cursor[owner.sample]++] = c;
     areas_[owner.sample] += area;
     albedos_[owner.sample] += area * cell_albedos_[c];

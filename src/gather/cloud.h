@@ -29,6 +29,12 @@ class GatherCloud {
     return cells_.at(side_index(hit.triangle, hit.back), hit.barycentric);
   }
   const Owner& owner(uint32_t cell) const { return ownership_.owners[cell]; }
+  /// Sample that speaks for a point of a cell, if any. O(1) where the cell's trust is whole.
+  std::optional<uint32_t> speaker(const SurfacePoint& at, uint32_t cell) const {
+    const Owner& owner = ownership_.owners[cell];
+    if (owner.trust == Trust::whole || ownership_.samples->fits(at, owner.sample)) return owner.sample;
+    return ownership_.samples->find(at);
+  }
   /// A cell as a receiver.
   Footprint cell_footprint(uint32_t cell) const;
   /// Mean diffuse reflectance (metals: base colour, as in bounces) of a cell.
@@ -40,6 +46,11 @@ class GatherCloud {
   const Rgb& albedo(std::size_t i) const { return albedos_[i]; }
   /// A sample as a receiver: its cells.
   Footprint footprint(std::size_t i) const;
+  /// A point of it that the sample speaks for, where light may be gathered in its name.
+  SurfacePoint point(std::size_t i, const Footprint& footprint, Vec2 u) const {
+    const SurfacePoint p = footprint.sample(u);
+    return least_[i] == Trust::whole || ownership_.samples->fits(p, i) ? p : (*ownership_.samples)[i];
+  }
   /// Distance between samples around sample i, m.
   float spacing(std::size_t i) const { return std::sqrt(areas_[i]); }
   /// Share of the surface, by area, whose cells have this trust in their sample.
@@ -51,6 +62,7 @@ class GatherCloud {
   const World* world_;
   SurfaceCells cells_;
   Ownership ownership_;
+  std::vector<Trust> least_;             ///< of a sample's cells that count
   std::vector<uint32_t> first_, owned_;  ///< CSR: cells that each sample speaks for
   std::vector<float> areas_;
   std::vector<Rgb> albedos_, cell_albedos_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nanoflann.hpp>
-#include <optional>
 
 #include "core/parallel.h"
 
@@ -13,25 +12,7 @@ namespace {
 
 constexpr std::size_t kNearest = 8;
 constexpr float kLeastShare = 0.125f;
-
-/// Samples as points (place, scale x normal).
-struct Points {
-  std::vector<std::array<float, 6>> data;
-
-  std::size_t kdtree_get_point_count() const { return data.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t dim) const { return data[i][dim]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 6, uint32_t>;
-
-std::array<float, 6> embed(const SurfacePoint& p, float scale) {
-  const Vec3 n = scale * p.shading_normal;
-  return {p.position.x, p.position.y, p.position.z, n.x, n.y, n.z};
-}
+constexpr float kReach = 3;  // spacings
 
 /// Nothing between two points of a surface that may bulge a little: tested above it.
 bool sees(const Tracer& tracer, const SurfacePoint& p, const SurfacePoint& q) {
@@ -60,38 +41,21 @@ bool same_surface(const SurfacePoint& p, const SurfacePoint& q) {
          std::abs(glm::dot(to, q.geometric_normal)) <= most;
 }
 
-class Assigner {
- public:
-  Assigner(const World& world, const Tracer& tracer, const SurfaceCells& cells,
-           std::span<const float> spacings)
-      : world_(world), tracer_(tracer), cells_(cells), spacings_(spacings) {}
-
-  bool fits(const SurfacePoint& cell, const SurfacePoint& sample, float spacing) const {
-    return glm::distance(cell.position, sample.position) <= 3 * spacing && same_surface(cell, sample) &&
-           sees(tracer_, cell, sample);
+/// Of a cell whose middle fits: whether its corners see the sample too.
+Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells, uint32_t cell,
+            const SurfacePoint& sample) {
+  const SurfacePoint middle = cells.middle(world, cell);
+  const FootprintPiece piece = cells.piece(world, cell);
+  for (const Vec3& corner : {piece.p0, piece.p1, piece.p2}) {
+    SurfacePoint p = middle;
+    p.position = corner + 0.1f * (middle.position - corner);
+    if (!sees(tracer, p, sample)) return Trust::middle;
   }
-  /// Whether every corner of a cell that fits sees the sample too.
-  Trust trust(uint32_t cell, const SurfacePoint& sample) const {
-    const SurfacePoint middle = cells_.middle(world_, cell);
-    const FootprintPiece piece = cells_.piece(world_, cell);
-    for (const Vec3& corner : {piece.p0, piece.p1, piece.p2}) {
-      SurfacePoint p = middle;
-      p.position = corner + 0.1f * (middle.position - corner);
-      if (!sees(tracer_, p, sample)) return Trust::middle;
-    }
-    return Trust::whole;
-  }
-  SurfacePoint middle(uint32_t cell) const { return cells_.middle(world_, cell); }
-  float spacing(uint32_t cell) const { return spacings_[cell]; }
-
- private:
-  const World& world_;
-  const Tracer& tracer_;
-  const SurfaceCells& cells_;
-  std::span<const float> spacings_;
-};
+  return Trust::whole;
+}
 
 float median(std::vector<float> values) {
+  if (values.empty()) return 1;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -99,70 +63,110 @@ float median(std::vector<float> values) {
 
 }  // namespace
 
+/// Samples as points (place, scale x normal).
+struct Samples::Tree {
+  std::vector<std::array<float, 6>> data;
+  float scale;
+  using Index =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Tree>, Tree, 6, uint32_t>;
+  std::unique_ptr<Index> index;
+
+  Tree(std::span<const SurfacePoint> points, float normal_scale) : scale(normal_scale) {
+    for (const SurfacePoint& p : points) data.push_back(embed(p));
+    index = std::make_unique<Index>(6, *this, nanoflann::KDTreeSingleIndexAdaptorParams(8));
+  }
+  std::array<float, 6> embed(const SurfacePoint& p) const {
+    const Vec3 n = scale * p.shading_normal;
+    return {p.position.x, p.position.y, p.position.z, n.x, n.y, n.z};
+  }
+  std::span<const uint32_t> search(const SurfacePoint& at, std::array<uint32_t, kNearest>& found,
+                                   std::size_t count) const {
+    float squares[kNearest];
+    const std::array<float, 6> query = embed(at);
+    return {found.data(), index->knnSearch(query.data(), count, found.data(), squares)};
+  }
+
+  std::size_t kdtree_get_point_count() const { return data.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t dim) const { return data[i][dim]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+Samples::Samples(const Tracer& tracer, std::vector<SurfacePoint> points, std::vector<float> spacings)
+    : tracer_(tracer),
+      points_(std::move(points)),
+      spacings_(std::move(spacings)),
+      // Normals a right angle apart count as four spacings.
+      tree_(std::make_unique<Tree>(points_, 2.8f * median(spacings_))) {}
+
+Samples::~Samples() = default;
+
+bool Samples::fits(const SurfacePoint& at, std::size_t sample) const {
+  const SurfacePoint& s = points_[sample];
+  return glm::distance(at.position, s.position) <= kReach * spacings_[sample] && same_surface(at, s) &&
+         sees(tracer_, at, s);
+}
+
+std::optional<uint32_t> Samples::find(const SurfacePoint& at) const {
+  std::array<uint32_t, kNearest> found;
+  for (const uint32_t sample : tree_->search(at, found, kNearest))
+    if (fits(at, sample)) return sample;
+  return std::nullopt;
+}
+
+uint32_t Samples::nearest(const SurfacePoint& at) const {
+  std::array<uint32_t, kNearest> found{};
+  tree_->search(at, found, 1);
+  return found[0];
+}
+
 Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceCells& cells,
                         std::vector<uint32_t> seeds, std::span<const float> spacings,
                         std::span<const float> weights) {
-  const Assigner assigner(world, tracer, cells, spacings);
+  std::vector<SurfacePoint> points;
   std::vector<float> around;
-  for (const uint32_t seed : seeds) around.push_back(spacings[seed]);
-  // Normals a right angle apart count as four spacings.
-  const float scale = around.empty() ? 1 : 2.8f * median(around);
-  std::vector<SurfacePoint> samples;
-  Points points;
   for (const uint32_t seed : seeds) {
-    samples.push_back(assigner.middle(seed));
-    points.data.push_back(embed(samples.back(), scale));
+    points.push_back(cells.middle(world, seed));
+    around.push_back(spacings[seed]);
   }
-  const Tree tree(6, points, nanoflann::KDTreeSingleIndexAdaptorParams(8));
-
-  Ownership result;
-  result.owners.resize(cells.size());
+  const Samples first(tracer, points, around);
+  std::vector<Owner> owners(cells.size());
   constexpr uint32_t kOrphan = 0xffffffffu;
   parallel_for(cells.size(), 256, [&](std::size_t c) {
     const auto cell = static_cast<uint32_t>(c);
-    const SurfacePoint at = assigner.middle(cell);
-    const std::array<float, 6> query = embed(at, scale);
-    uint32_t found[kNearest];
-    float squares[kNearest];
-    const std::size_t count = tree.knnSearch(query.data(), kNearest, found, squares);
-    uint32_t guess = kOrphan;
-    for (std::size_t k = 0; k < count; ++k) {
-      const SurfacePoint& sample = samples[found[k]];
-      if (seeds[found[k]] == cell || assigner.fits(at, sample, spacings[seeds[found[k]]])) {
-        result.owners[c] = {found[k], assigner.trust(cell, sample)};
-        return;
-      }
-      if (guess == kOrphan && glm::dot(at.shading_normal, sample.shading_normal) > 0 &&
-          sees(tracer, at, sample))
-        guess = found[k];
-    }
-    if (weights[c] >= kLeastShare)
-      guess = kOrphan;
-    else if (guess == kOrphan && count > 0)
-      guess = found[0];
-    result.owners[c] = {guess, Trust::guess};
+    const SurfacePoint at = cells.middle(world, cell);
+    if (const auto sample = first.find(at))
+      owners[c] = {*sample, trust(world, tracer, cells, cell, first[*sample])};
+    else
+      owners[c].sample = weights[c] >= kLeastShare ? kOrphan : first.nearest(at);
   });
+  for (uint32_t s = 0; s < seeds.size(); ++s)
+    owners[seeds[s]] = {s, trust(world, tracer, cells, seeds[s], points[s])};
 
   // Orphans become samples, in order; neighbours in the order are often neighbours in space.
-  std::vector<uint32_t> added;
+  const std::size_t old = points.size();
   for (uint32_t cell = 0; cell < cells.size(); ++cell) {
-    if (result.owners[cell].sample != kOrphan) continue;
-    const SurfacePoint at = assigner.middle(cell);
-    for (std::size_t k = added.size(); k > 0 && added.size() - k < 4 && result.owners[cell].sample == kOrphan;
-         --k) {
-      const SurfacePoint& sample = samples[added[k - 1]];
-      if (assigner.fits(at, sample, spacings[seeds[added[k - 1]]]))
-        result.owners[cell] = {added[k - 1], assigner.trust(cell, sample)};
+    Owner& owner = owners[cell];
+    if (owner.sample != kOrphan) continue;
+    const SurfacePoint at = cells.middle(world, cell);
+    for (std::size_t s = points.size(); s > old && points.size() - s < 4; --s) {
+      const SurfacePoint& sample = points[s - 1];
+      if (glm::distance(at.position, sample.position) > kReach * around[s - 1] || !same_surface(at, sample) ||
+          !sees(tracer, at, sample))
+        continue;
+      owner.sample = static_cast<uint32_t>(s - 1);
+      break;
     }
-    if (result.owners[cell].sample != kOrphan) continue;
-    const auto index = static_cast<uint32_t>(seeds.size());
-    result.owners[cell] = {index, assigner.trust(cell, at)};
-    seeds.push_back(cell);
-    samples.push_back(at);
-    added.push_back(index);
+    if (owner.sample == kOrphan) {
+      owner.sample = static_cast<uint32_t>(points.size());
+      points.push_back(at);
+      around.push_back(spacings[cell]);
+    }
+    owner.trust = trust(world, tracer, cells, cell, points[owner.sample]);
   }
-  result.seeds = std::move(seeds);
-  return result;
+  return {std::make_unique<Samples>(tracer, std::move(points), std::move(around)), std::move(owners)};
 }
 
 }  // namespace sconce

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which gather sample speaks for which cell.
+// Which gather sample speaks for which cell, and for which point of cells that are in part out of its sight.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "gather/cells.h"
@@ -22,14 +24,42 @@ struct Owner {
   Trust trust = Trust::guess;
 };
 
-struct Ownership {
-  std::vector<Owner> owners;    ///< per cell
-  std::vector<uint32_t> seeds;  ///< per sample: the cell it stands in
+/// Where the samples stand.
+class Samples {
+ public:
+  /// @param spacings  per sample: distance between samples thereabouts, m
+  Samples(const Tracer& tracer, std::vector<SurfacePoint> points, std::vector<float> spacings);
+  ~Samples();
+  Samples(const Samples&) = delete;
+  Samples& operator=(const Samples&) = delete;
+
+  std::size_t size() const { return points_.size(); }
+  const SurfacePoint& operator[](std::size_t i) const { return points_[i]; }
+  float spacing(std::size_t i) const { return spacings_[i]; }
+
+  /// Whether a sample may speak for a point: near in place and normal, close to each other's plane, nothing
+  /// between them, or light would leak through doors and thin walls.
+  bool fits(const SurfacePoint& at, std::size_t sample) const;
+  /// The nearest sample that fits, of a few.
+  std::optional<uint32_t> find(const SurfacePoint& at) const;
+  /// The nearest in place and normal, of as many, whatever is between.
+  uint32_t nearest(const SurfacePoint& at) const;
+
+ private:
+  struct Tree;
+  const Tracer& tracer_;
+  std::vector<SurfacePoint> points_;
+  std::vector<float> spacings_;
+  std::unique_ptr<Tree> tree_;
 };
 
-/// Gives every cell the nearest sample that it sees on the same surface: near in place and normal, close to
-/// each other's plane, nothing between them (or light would leak through doors and thin walls). Cells that
-/// find none become samples where enough light falls on them, and otherwise take the nearest as a guess.
+struct Ownership {
+  std::unique_ptr<Samples> samples;
+  std::vector<Owner> owners;  ///< per cell
+};
+
+/// Gives every cell the nearest sample that fits. Cells that find none become samples where enough light
+/// falls on them, and otherwise take the nearest as a guess.
 /// @param seeds     cells that are samples, distinct
 /// @param spacings  per cell: distance between samples thereabouts, m
 /// @param weights   per cell: its share of the samples; cells below an eighth of a sample never become one

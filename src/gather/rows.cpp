@@ -9,6 +9,94 @@
 
 namespace sconce {
 
+namespace {
+
+constexpr uint32_t kMostSteps = 8;
+
+/// Rows of one block of samples.
+class RowGatherer {
+ public:
+  RowGatherer(const World& world, const Tracer& tracer, const GatherCloud& cloud, const DirectLight& direct)
+      : world_(world),
+        tracer_(tracer),
+        cloud_(cloud),
+        on_cells_(direct.on_cells),
+        at_point_(direct.groups > 0 ? direct.make_at_point() : DirectAtPoint()),
+        sums_(3 * direct.groups),
+        once_(3 * direct.groups) {}
+
+  /// Appends row i.
+  /// @param once  3 x groups, set
+  void gather(std::size_t i, uint32_t rays, uint32_t seed, SparseRows& rows, std::span<float> once) {
+    const Footprint footprint = cloud_.footprint(i);
+    const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
+    std::fill(once_.begin(), once_.end(), 0.0);
+    met_.clear();
+    for (uint32_t r = 0; r < rays; ++r)
+      follow(cloud_.point(i, footprint, sobol_pair(r, 0, stream)), r, stream);
+    for (std::size_t c = 0; c < once.size(); ++c) once[c] = static_cast<float>(once_[c] / rays);
+    std::sort(met_.begin(), met_.end());
+    for (std::size_t k = 0; k < met_.size();) {
+      std::size_t end = k;
+      while (end < met_.size() && met_[end] == met_[k]) ++end;
+      rows.columns.push_back(met_[k]);
+      rows.counts.push_back(static_cast<uint16_t>(end - k));
+      k = end;
+    }
+    rows.first.push_back(rows.columns.size());
+  }
+
+ private:
+  /// One ray, to a sample. Where none speaks for its end it goes on, as a path: without colour for K.
+  void follow(SurfacePoint at, uint32_t r, uint32_t stream) {
+    Rgb throughput{1.0f};
+    for (uint32_t step = 0; step < kMostSteps; ++step) {
+      const Vec3 direction =
+          Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(r, 1 + 2 * step, stream)));
+      if (!(glm::dot(direction, at.geometric_normal) > 0)) return;
+      const Hit hit =
+          tracer_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
+      if (!hit || !cloud_.reflects(hit)) return;
+      const uint32_t cell = cloud_.cell(hit);
+      at = surface_point(world_, hit);
+      const Rgb& albedo = cloud_.cell_albedo(cell);
+      if (!once_.empty()) add_direct(at, cell, mix32(stream, r) ^ step, throughput * albedo);
+      if (const auto sample = cloud_.speaker(at, cell)) {
+        met_.push_back(*sample);
+        return;
+      }
+      const float survival = (albedo.r + albedo.g + albedo.b) / 3;
+      if (!(sobol_pair(r, 2 + 2 * step, stream).x < survival)) return;
+      throughput *= albedo * (1 / survival);
+    }
+  }
+
+  void add_direct(const SurfacePoint& at, uint32_t cell, uint32_t stream, const Rgb& factor) {
+    const std::size_t width = once_.size();
+    if (cloud_.owner(cell).trust == Trust::whole) {
+      for (std::size_t c = 0; c < width; ++c) sums_[c] = static_cast<double>(on_cells_[width * cell + c]);
+    } else {
+      std::fill(sums_.begin(), sums_.end(), 0.0);
+      at_point_(at, stream, sums_);
+    }
+    for (std::size_t c = 0; c < width; c += 3) {
+      once_[c] += static_cast<double>(factor.r) * sums_[c];
+      once_[c + 1] += static_cast<double>(factor.g) * sums_[c + 1];
+      once_[c + 2] += static_cast<double>(factor.b) * sums_[c + 2];
+    }
+  }
+
+  const World& world_;
+  const Tracer& tracer_;
+  const GatherCloud& cloud_;
+  std::span<const float> on_cells_;
+  DirectAtPoint at_point_;
+  std::vector<double> sums_, once_;
+  std::vector<uint32_t> met_;
+};
+
+}  // namespace
+
 Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& cloud, int rays, uint32_t seed,
                 const DirectLight& direct, const Progress& progress) {
   constexpr std::size_t kBlock = 256;
@@ -21,49 +109,10 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
   std::atomic<uint64_t> done = 0;
   parallel_for(blocks, 1, [&](std::size_t block) {
     progress.check();
-    SparseRows& part = parts[block];
-    std::vector<uint32_t> met;
-    std::vector<double> sums(width), once(width);
-    for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i) {
-      const Footprint footprint = cloud.footprint(i);
-      const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
-      std::fill(once.begin(), once.end(), 0.0);
-      met.clear();
-      for (uint32_t r = 0; r < static_cast<uint32_t>(rays); ++r) {
-        const SurfacePoint at = footprint.sample(sobol_pair(r, 0, stream));
-        const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(r, 1, stream)));
-        if (!(glm::dot(direction, at.geometric_normal) > 0)) continue;
-        const Hit hit =
-            tracer.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
-        if (!hit || !cloud.reflects(hit)) continue;
-        const uint32_t cell = cloud.cell(hit);
-        met.push_back(cloud.owner(cell).sample);
-        if (width == 0) continue;
-        if (cloud.owner(cell).trust == Trust::whole) {
-          for (std::size_t c = 0; c < width; ++c)
-            sums[c] = static_cast<double>(direct.on_cells[width * cell + c]);
-        } else {
-          std::fill(sums.begin(), sums.end(), 0.0);
-          direct.at_point(surface_point(world, hit), mix32(stream, r), sums);
-        }
-        const Rgb& albedo = cloud.cell_albedo(cell);
-        for (std::size_t c = 0; c < width; c += 3) {
-          once[c] += static_cast<double>(albedo.r) * sums[c];
-          once[c + 1] += static_cast<double>(albedo.g) * sums[c + 1];
-          once[c + 2] += static_cast<double>(albedo.b) * sums[c + 2];
-        }
-      }
-      for (std::size_t c = 0; c < width; ++c) result.once[width * i + c] = static_cast<float>(once[c] / rays);
-      std::sort(met.begin(), met.end());
-      for (std::size_t k = 0; k < met.size();) {
-        std::size_t end = k;
-        while (end < met.size() && met[end] == met[k]) ++end;
-        part.columns.push_back(met[k]);
-        part.counts.push_back(static_cast<uint16_t>(end - k));
-        k = end;
-      }
-      part.first.push_back(part.columns.size());
-    }
+    RowGatherer gatherer(world, tracer, cloud, direct);
+    for (std::size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i)
+      gatherer.gather(i, static_cast<uint32_t>(rays), seed, parts[block],
+                      std::span(result.once).subspan(width * i, width));
     progress.at("gather rows", ++done, blocks);
   });
   SparseRows& rows = result.rows;

@@ -15,17 +15,21 @@ struct Gathered {
   /// share of the hemisphere.
   SparseRows rows;
   /// Illuminance after one reflection, samples x 3 groups, lux: from the light on cells, which are finer than
-  /// samples, so that small bright spots stay where they are.
+  /// samples, so that small bright spots stay where they are. By way of points for which no sample speaks (K
+  /// does not know them) it may be more reflections.
   std::vector<float> once;
 };
+
+/// Adds an estimate of direct light at a point to 3 x groups sums, lux; `stream` names its random numbers.
+using DirectAtPoint = std::function<void(const SurfacePoint&, uint32_t stream, std::span<double> sums)>;
 
 /// Direct light where row rays end.
 struct DirectLight {
   std::size_t groups = 0;
   std::span<const float> on_cells;  ///< cells x 3 groups, lux; read where Trust is whole
-  /// Adds an estimate at one point to 3 x groups sums, lux; asked where cells are in part out of sight, since
-  /// no ray ends on their dark, hidden part. `stream` names its random numbers. Thread-safe.
-  std::function<void(const SurfacePoint&, uint32_t stream, std::span<double> sums)> at_point;
+  /// One for each thread at a time; asked where cells are in part out of sight, since no ray ends on their
+  /// dark, hidden part.
+  std::function<DirectAtPoint()> make_at_point;
 };
 
 /// Rows of K by cosine-distributed rays from all over a sample's cells (methods.md 2.4, "hemisphere

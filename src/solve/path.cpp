@@ -16,6 +16,10 @@ class PathSolver final : public Solver {
                               params_.bounces, context_.wanted);
     solve_receiver(kernel, receiver, params_, out);
   }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
+  }
 
  private:
   SolveContext context_;

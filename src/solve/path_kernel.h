@@ -12,8 +12,6 @@ namespace sconce {
 
 /// What a path knows of the light at its hits besides what it finds itself: nothing.
 struct NoCache {
-  /// Gather rays for every point at which lamps are sampled.
-  static constexpr uint32_t kRaysPerPoint = 1;
   /// Adds to the sums throughput times the illuminance at the end of ray number `depth` (0: the receiver's),
   /// in place of the rest of the path. False: it cannot tell, the path goes on.
   bool read(const Hit&, uint32_t /*depth*/, const Rgb& /*throughput*/, std::span<double> /*sums*/) {
@@ -48,43 +46,30 @@ class PathKernel {
 
   /// Adds one sample of E_g, lux, to sums[3 * group + channel].
   void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
-    constexpr uint32_t kSplit = Cache::kRaysPerPoint;
-    if (kSplit > 1 && index % kSplit == 0) {
-      // A sequence of its own: every fourth point of a Sobol sequence lies in one quarter of the square.
-      const uint32_t reversed = detail::reverse_bits(index / kSplit);
-      const SurfacePoint at = receiver.sample(sobol_bits(reversed, kLampPointPair, stream).unit());
-      picker_.aim(at.position, at.shading_normal, budget_.receiver);
-      light_from_lamps(at, sobol_bits(reversed, kLampPair, stream).unit().x,
-                       sobol_bits(reversed, kLampPair + 1, stream), stream, Rgb(1.0f), 1.0f / kSplit, sums);
-    }
     const uint32_t reversed = detail::reverse_bits(index);
     SurfacePoint at = receiver.sample(sobol_bits(reversed, kFootprintPair, stream).unit());
     Rgb throughput{1.0f};
     for (uint32_t depth = 0;; ++depth) {
       const auto bits = [&](uint32_t slot) { return sobol_bits(reversed, 3 * depth + slot, stream); };
       const Vec2 choice = bits(1).unit();
-      const bool sampled = depth > 0 || kSplit == 1;
-      if (sampled) {
-        picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
-        light_from_lamps(at, choice.x, bits(2), stream ^ depth, throughput, 1, sums);
-      }
+      picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
+      const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
+      const float clearance = 4 * glm::distance(start, at.position);
+      const SobolBits on_lamps = bits(2);
+      picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
+        next_event(at, start, clearance, lamp, expected,
+                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, sums);
+      });
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
 
       const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
-      const Hit hit = rays_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
-      // Expected shadow rays to a lamp for each gather ray: the factor of its density in the MIS weight.
-      bool aimed = sampled;
-      const auto expected = [&](std::size_t lamp) {
-        if (!aimed) picker_.aim(at.position, at.shading_normal, budget_.receiver);
-        aimed = true;
-        return picker_.expected(lamp) * (sampled ? 1.0f : 1.0f / kSplit);
-      };
+      const Hit hit = rays_.closest({start, direction});
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
-          const float other = expected(sky) * lamps_.sky_pdf(sky, direction);
+          const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
           add(sums, sky,
               throughput * lamps_.sky_radiance(sky, direction) * (cosine / (other + cosine * kInvPi)));
         }
@@ -94,7 +79,7 @@ class PathKernel {
       if (lamp >= 0) {
         const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
         if (!emission.is_black()) {
-          const float other = expected(static_cast<std::size_t>(lamp)) *
+          const float other = picker_.expected(static_cast<std::size_t>(lamp)) *
                               lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction);
           add(sums, static_cast<uint32_t>(lamp),
               throughput * emission * (cosine / (other + cosine * kInvPi)));
@@ -116,20 +101,7 @@ class PathKernel {
   }
 
  private:
-  static constexpr uint32_t kFootprintPair = 0xffffff00u, kLampPointPair = 0xffffff01u,
-                            kLampPair = 0xffffff02u;
-
-  /// Samples lamps at a point that the picker was aimed at.
-  /// @param share  of the points at which lamps are sampled
-  void light_from_lamps(const SurfacePoint& at, float choice, const SobolBits& on_lamps, uint32_t key,
-                        const Rgb& throughput, float share, std::span<double> sums) {
-    const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
-    const float clearance = 4 * glm::distance(start, at.position);
-    picker_.pick(choice, [&](uint32_t lamp, float expected) {
-      next_event(at, start, clearance, lamp, share * expected, on_lamps.scrambled(key ^ lamp << 16).unit(),
-                 throughput, sums);
-    });
-  }
+  static constexpr uint32_t kFootprintPair = 0xffffff00u;
 
   /// @param start      where rays leave the surface
   /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it

@@ -40,8 +40,6 @@ void add(const PhotonMap& map, const PhotonMap::Density& density, const Rgb& thr
 /// The map as a path reads it. One per thread.
 class MapReader {
  public:
-  static constexpr uint32_t kRaysPerPoint = 1;
-
   MapReader(const World& world, const PhotonMap& map, int bounces)
       : world_(world), map_(map), bounces_(bounces) {}
 
@@ -81,6 +79,10 @@ class PhotonSolver final : public Solver {
                                          MapReader(context_.world, map_, params_.bounces));
     solve_receiver(kernel, receiver, params_, out);
     if (!params_.final_gather && params_.bounces != 0) add_indirect(receiver, out);
+  }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
   }
 
  private:

@@ -36,7 +36,7 @@ void LampPicker::aim(const Vec3& x, const Vec3& n, int rays) {
 
 RayBudget shadow_ray_budget(std::size_t lamps) {
   const int n = static_cast<int>(std::min<std::size_t>(lamps, 64));
-  return {std::clamp((n + 1) / 2, std::min(n, 4), 16), std::clamp((n + 2) / 3, 1, 8)};
+  return {std::clamp((n + 1) / 2, std::min(n, 8), 16), std::clamp((n + 2) / 3, 1, 8)};
 }
 
 }  // namespace sconce

@@ -12,13 +12,18 @@ namespace sconce {
 namespace {
 
 constexpr uint32_t kDirectSamples = 4;     // per cell
-constexpr std::size_t kRowRays = 1 << 24;  // in all
+constexpr std::size_t kRowRays = 1 << 22;  // in all
 constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
+
+/// A sample for four texels, up to where more were not seen to help.
+std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
+  if (params.cloud > 0) return static_cast<std::size_t>(params.cloud);
+  if (context.receivers == nullptr) return 2048;
+  return std::clamp<std::size_t>(context.receivers->size() / 4, 4096, 65536);
+}
 
 /// What receivers' rays read.
 struct RadiosityCache {
-  static constexpr uint32_t kRaysPerPoint = 4;
-
   const GatherCloud* cloud = nullptr;
   const float* direct = nullptr;  ///< cells x 3 groups
   /// samples x 3 groups: light at the ends of receivers' own rays; at those of rays that went on once
@@ -48,21 +53,20 @@ class RadiositySolver final : public Solver {
     if (params.bounces == 0) return;
     CloudParams cloud;
     cloud.seed = params.seed;
-    if (params.cloud > 0)
-      cloud.samples = static_cast<std::size_t>(params.cloud);
-    else if (context.receivers == nullptr)
-      cloud.samples = 2048;
+    cloud.samples = cloud_size(context, params);
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
                                            context.receivers, cloud, progress);
     direct_ = direct_light(progress);
-    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 512));
+    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 256));
     DirectLight direct;
     direct.groups = context.scene.groups.size();
     direct.on_cells = direct_;
-    direct.at_point = [&](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
-      PathKernel<Tracer> kernel(context.scene, context.world, context.tracer, context.lamps, 0,
-                                context.wanted);
-      kernel.sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+    direct.make_at_point = [&]() -> DirectAtPoint {
+      auto kernel = std::make_shared<PathKernel<Tracer>>(context.scene, context.world, context.tracer,
+                                                         context.lamps, 0, context.wanted);
+      return [kernel](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
+        kernel->sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+      };
     };
     const Gathered gathered =
         gather(context.world, context.tracer, *cloud_, rays, params.seed, direct, progress);
@@ -87,6 +91,10 @@ class RadiositySolver final : public Solver {
     PathKernel<Tracer, RadiosityCache> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
                                               params_.bounces, context_.wanted, cache);
     solve_receiver(kernel, receiver, params_, out);
+  }
+  bool set_samples(int samples) override {
+    params_.samples = samples;
+    return true;
   }
 
  private:

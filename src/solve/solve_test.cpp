@@ -208,6 +208,7 @@ TEST_P(EverySolver, ErrorIsWhatSeedsScatter) {
     BakeParams params;
     params.samples = 64;
     params.seed = seed;
+    params.cloud = 512;
     const auto solver = GetParam()->prepare({rig.scene, rig.world, rig.tracer, rig.lamps}, params, {});
     std::vector<GroupValue> out(rig.scene.groups.size());
     const Vec3 up(0, 1, 0);

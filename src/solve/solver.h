@@ -58,14 +58,17 @@ class Solver {
   /// random numbers).
   /// @param out  one per scene group
   virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
+  /// Another number of samples than it was prepared with, for a bake that learns only then how many its time
+  /// allows. @return false: it has no such number
+  virtual bool set_samples(int) { return false; }
 };
 
 struct SolverRow {
   std::string_view name, doc;
   std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params,
                                      const Progress& progress);
-  bool runs_program =
-      false;  ///< asked for as NAME:CMD; works on texels of an atlas only, whole pages at once
+  /// Asked for as NAME:CMD; works on texels of an atlas only, whole pages at once.
+  bool runs_program = false;
 };
 
 /// radiosity, path, photon, external; in this order.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "scene/groups.h"
+#include "scene/shapes.h"
+#include "solve/timing.h"
+
+namespace sconce {
+namespace {
+
+/// Takes 50 us for each sample, by its own clock.
+class PatientSolver final : public Solver {
+ public:
+  void solve(const Footprint&, std::span<GroupValue>) const override { ticks_ += samples_; }
+  bool set_samples(int samples) override {
+    samples_ = samples;
+    return true;
+  }
+  double now() const { return 50e-6 * static_cast<double>(ticks_.load()); }
+
+ private:
+  int samples_ = 0;
+  mutable std::atomic<int64_t> ticks_ = 0;
+};
+
+TEST(SamplesWithin, FitsTheTime) {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "white", Rgb(0.7f), Rgb(1)), Vec3(0), Vec3(1), true);
+  assign_groups(scene, Grouping::one);
+  const World world = make_world(scene);
+  const Tracer tracer(scene, world);
+  AtlasParams params;
+  params.page_size = 32;
+  Atlas atlas = make_atlas(scene, world, tracer, params);
+  const TexelReceivers receivers(world, tracer, atlas);
+  PatientSolver solver;
+  const auto samples = [&](double seconds) {
+    return samples_within(seconds, solver, receivers, 1, [&] { return solver.now(); });
+  };
+  for (const double seconds : {30.0, 300.0}) {
+    const double all = seconds / (50e-6 * static_cast<double>(receivers.size()));
+    EXPECT_LE(samples(seconds), all);
+    EXPECT_NEAR(samples(seconds), 0.93 * all, 0.03 * all + kBatches);
+    EXPECT_EQ(samples(seconds) % kBatches, 0);
+  }
+  EXPECT_EQ(samples(1e-9), kBatches) << "there is no less";
+}
+
+}  // namespace
+}  // namespace sconce
