@@ -43,17 +43,18 @@ class Cycles : public testing::Test {
     if (outcome.code != 0) throw Error(output, outcome.err);
     return Package::open(output);
   }
-  std::vector<LightmapError> compare(const std::string& scene, int cycles, int path,
-                                     const std::vector<std::string>& options) const {
+  /// Cycles against two bakes by `solver`.
+  std::vector<LightmapError> compare(const std::string& scene, int cycles, const std::string& solver,
+                                     int samples, const std::vector<std::string>& options) const {
     const auto with = [&](const char* seed) {
       std::vector<std::string> more = options;
       more.insert(more.end(), {"--seed", seed});
       return more;
     };
-    return test::lightmap_errors(
-        bake(scene, "cycles", "external:" SCONCE_SOURCE_DIR "/solvers/cycles/sconce-cycles", cycles,
-             with("1")),
-        bake(scene, "s0", "path", path, with("2")), bake(scene, "s1", "path", path, with("3")));
+    const std::string adapter = "external:" SCONCE_SOURCE_DIR "/solvers/cycles/sconce-cycles";
+    return test::lightmap_errors(bake(scene, "cycles", adapter, cycles, with("1")),
+                                 bake(scene, "s0", solver, samples, with("2")),
+                                 bake(scene, "s1", solver, samples, with("3")));
   }
 };
 
@@ -143,7 +144,7 @@ TEST_F(Cycles, LampsSkiesTexturesAndTwins) {
     }
   write_exr(folder / "sky.exr", sky, PixelType::full);
   folder.write("yard.toml", "[sky]\nfile = \"sky.exr\"\nrotate = 20\nintensity = 2\n");
-  const auto errors = compare(scene, 256, 512, {"--atlas", "64", "--bounces", "4"});
+  const auto errors = compare(scene, 256, "path", 512, {"--atlas", "64", "--bounces", "4"});
   ASSERT_EQ(errors.size(), 5u);
   for (const LightmapError& error : errors) {
     EXPECT_NEAR(error.mean_ratio, 1, 0.01) << error.group;
@@ -155,10 +156,11 @@ TEST_F(Cycles, LampsSkiesTexturesAndTwins) {
 TEST_F(Cycles, CornellBox) {
   const fs::path scene = test_data() / "glb" / "cornell-box.glb";
   SCONCE_NEEDS_DATA(scene);
-  for (const LightmapError& error : compare(scene.string(), 512, 1024, {"--atlas", "64"})) {
-    EXPECT_NEAR(error.mean_ratio, 1, 0.01) << error.group;
-    EXPECT_LT(error.rmse, 0.05) << error.group << ": noise of the two, and texels at the lamp's edge";
-  }
+  for (const auto& [solver, samples] : {std::pair("path", 1024), {"radiosity", 256}})
+    for (const LightmapError& error : compare(scene.string(), 512, solver, samples, {"--atlas", "64"})) {
+      EXPECT_NEAR(error.mean_ratio, 1, 0.01) << solver;
+      EXPECT_LT(error.rmse, 0.05) << solver << ": noise of the two, and texels at the lamp's edge";
+    }
 }
 
 }  // namespace

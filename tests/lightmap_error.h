@@ -20,7 +20,7 @@ struct LightmapError {
   std::size_t texels = 0;
 };
 
-/// Interior texels: neither the texel nor its eight neighbours are cut by the edge of a chart or partly
+/// Interior texels: neither the texel nor its eight neighbours are cut by the edge of a chart or wholly
 /// buried, so that their weights (surface area) agree within 10 %. Elsewhere bakers differ in what part of a
 /// texel counts.
 inline std::vector<uint8_t> interior_texels(const Image& receivers) {
