@@ -21,16 +21,19 @@ TARGETS = (0.10, 0.05)
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", metavar="SCENE:GROUPING:ATLAS",
-                        help="default: modern-hall with one, five (named) and thirteen (per-light) groups, luxcore-kitchen with five")
+                        help="default: modern-hall with 1, 5 (named) and 13 (per-light) groups, luxcore-kitchen with 5")
     parser.add_argument("--solver", default="radiosity", help="of sconce (default: radiosity)")
     parser.add_argument("--samples", default="32,128,512", help="of sconce, two or more (default: 32,128,512)")
     parser.add_argument("--cycles-samples", default="32,128,512", help="of Cycles")
-    parser.add_argument("--reference", type=int, default=4096, help="paths per texel in each of the two references (default: 4096)")
+    parser.add_argument("--reference", type=int, default=4096,
+                        help="paths per texel in each of the two references (default: 4096)")
     parser.add_argument("--drop", type=float, default=0.001, help="share of texels, the worst, to leave out (default: 0.001)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of both")
-    parser.add_argument("--clock", choices=("wall", "cpu"), default="wall", help="cpu: of all threads, for a machine that has more to do")
+    parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
+                        help="cpu: of all threads, for a machine that has more to do")
     parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
-    parser.add_argument("--data", default=os.environ.get("SCONCE_TEST_DATA", ROOT / "../shared/data"), type=pathlib.Path)
+    parser.add_argument("--data", type=pathlib.Path,
+                        default=os.environ.get("SCONCE_TEST_DATA", ROOT / "../shared/data"))
     parser.add_argument("--work", type=pathlib.Path, help="keep all packages here (default: a folder that is removed)")
     parser.add_argument("--output", default=HERE.parent / "results/cycles.md", type=pathlib.Path)
     options = parser.parse_args()
@@ -76,8 +79,8 @@ class Bench:
 
     def errors(self, package, references):
         """group -> (relative RMSE, relative noise of the reference)"""
-        text = subprocess.run([self.options.build / "tests/lightmap_error", package, *references, str(self.options.drop)], check=True,
-                              stdout=subprocess.PIPE, text=True).stdout
+        command = [self.options.build / "tests/lightmap_error", package, *references, str(self.options.drop)]
+        text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
         rows = [line.split(" ", 4) for line in text.splitlines()]
         return {row[4]: (float(row[0]), float(row[2])) for row in rows}, int(rows[0][3])
 
@@ -127,18 +130,11 @@ def fit_time(points):
 
 
 def fit_error(points):
-    """error^2 = floor^2 + variance / samples, in relative terms"""
-    square, variance = line([(1 / n, e * e, 1 / max(e, 1e-9) ** 4) for n, _, e in points])
-    return math.sqrt(square), variance
-
-
-def samples_for(target, floor, variance):
-    left = target**2 - floor**2
-    return variance / left if left > 0 else math.inf
-
-
-def number(x, unit=""):
-    return "never" if math.isinf(x) else f"{x:.3g}{unit}"
+    """Relative: (floor, variance, whole) of error^2 = floor^2 + variance / samples, and of error^2 = whole / samples."""
+    weighted = [(1 / n, e * e, 1 / max(e, 1e-9) ** 4) for n, _, e in points]
+    square, variance = line(weighted)
+    whole = sum(w * x * y for x, y, w in weighted) / sum(w * x * x for x, _, w in weighted)
+    return math.sqrt(square), variance, whole
 
 
 def compare(bench, case):
@@ -162,17 +158,17 @@ def compare(bench, case):
                             f"{ready:.2f} s + {1000 * per_sample:.3g} ms per sample.", "",
                             "| group | reference noise | sconce at each number of samples | its floor | Cycles | its floor | "
                             "Cycles s + ms per sample |", "|---|---|---|---|---|---|---|"]
-    for group, ((floor, _), (setup, rate), (their_floor, _)) in fits.items():
+    for group, ((floor, _, _), (setup, rate), (their_floor, _, _)) in fits.items():
         shown = [" ".join(f"{100 * e:.2f}" for e in errors) for errors in
                  ([e[group] for _, _, e in ours], [e for _, _, e in theirs[group]])]
         details.append(f"| {group} | {100 * checks[group][1]:.2f} % | {shown[0]} % | {100 * floor:.2f} % | {shown[1]} % | "
                        f"{100 * their_floor:.2f} % | {setup:.2f} + {1000 * rate:.3g} |")
     for target in TARGETS:
-        needed = max(samples_for(target, *mine) for mine, _, _ in fits.values())
+        needed = max(whole for (_, _, whole), _, _ in fits.values()) / target**2
         mine = ready + per_sample * needed
-        cycles = sum(setup + rate * samples_for(target, 0, variance) for _, (setup, rate), (_, variance) in fits.values())
-        summary.append(f"| {name} | {100 * target:.0f} % | {number(cycles, ' s')} | {number(mine, ' s')} | {number(needed)} | "
-                       f"{'-' if math.isinf(mine) else f'{cycles / mine:.1f} ×'} |")
+        cycles = sum(setup + rate * variance / target**2 for _, (setup, rate), (_, variance, _) in fits.values())
+        summary.append(f"| {name} | {100 * target:.0f} % | {cycles:.3g} s | {mine:.3g} s | {needed:.0f} | "
+                       f"{cycles / mine:.1f} × |")
     return summary, details
 
 
