@@ -18,7 +18,7 @@ struct BakeJob {
   std::string solver = "radiosity";
   std::string encoding =
       "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
-  bool denoise = true;
+  bool denoise = false;
   AtlasParams atlas;
   BakeParams params;
 

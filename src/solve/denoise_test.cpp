@@ -58,7 +58,8 @@ double mean_square(const std::vector<GroupValue>& values, const auto& truth) {
 TEST(Denoise, ConstantStaysToTheBit) {
   const TexelGraph graph = open_graph(plane(20));
   const Values values{std::vector<GroupValue>(graph.size(), {Rgb(0.1f, 3.3f, 700), 5})};
-  for (const GroupValue& v : denoise(graph, values)[0]) EXPECT_EQ(v.illuminance, values[0][0].illuminance);
+  const Values clean = denoise(graph, values);
+  for (const GroupValue& v : clean[0]) EXPECT_EQ(v.illuminance, values[0][0].illuminance);
 }
 
 TEST(Denoise, WithoutNoiseNothingChanges) {
@@ -85,7 +86,7 @@ TEST(Denoise, SumsOfGroupsStaySums) {
     }
 }
 
-// The last pass reaches 7 spacings with weights (1 - r^2)^2: sum pi 49 / 3, sum of squares pi 49 / 5, so 85.5
+// The last pass reaches 6 spacings with weights (1 - r^2)^2: sum pi 36 / 3, sum of squares pi 36 / 5, so 62.8
 // texels count; guides that follow the noise cost some of them.
 TEST(Denoise, WhiteNoiseFalls) {
   const auto truth = [](uint32_t) { return 10.0f; };
@@ -93,8 +94,8 @@ TEST(Denoise, WhiteNoiseFalls) {
   const Values values{noisy(graph.size(), 1, 3, truth)};
   const Values clean = denoise(graph, values);
   const double left = mean_square(clean[0], truth);
-  EXPECT_LT(left, 1.0 / 40);
-  EXPECT_GT(left, 1.0 / 120);
+  EXPECT_LT(left, 1.0 / 35);
+  EXPECT_GT(left, 1.0 / 90);
   // And it says so.
   double stated = 0;
   for (const GroupValue& v : clean[0]) stated += static_cast<double>(v.error * v.error);
