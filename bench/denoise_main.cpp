@@ -138,20 +138,6 @@ void run(const std::string& path) {
                score(bench, high[g], reference[g]).relative / score(bench, clean[g], reference[g]).relative,
                score(bench, high[g], reference[g]).mse / score(bench, clean[g], reference[g]).mse);
   }
-  if (getenv("DUMP")) {
-    FILE* f = fopen(getenv("DUMP"), "w");
-    for (std::size_t i = 0; i < bench.areas.size(); ++i) {
-      const TexelNode& n = graph.node(i);
-      fprintf(f, "%zu %g %g %g %g %g %g %g %g %zu", i, bench.areas[i], n.position.x, n.position.y,
-              n.position.z, n.normal.x, n.normal.y, n.normal.z, n.spacing, graph.links(i).size());
-      for (std::size_t g = 0; g < groups; ++g)
-        fprintf(f, " %g %g %g %g %g %g", luminance(reference[g][i].illuminance), reference[g][i].error,
-                luminance(low[g][i].illuminance), low[g][i].error, luminance(clean[g][i].illuminance),
-                clean[g][i].error);
-      fprintf(f, "\n");
-    }
-    fclose(f);
-  }
   std::fflush(stdout);
 }
 

@@ -11,6 +11,7 @@ namespace sconce {
 namespace {
 
 constexpr float kReach = 0.8f;  // longest link, in the sum of both spacings: diagonals are 0.71
+constexpr float kCoarser = 4;        // how much wider than another a texel may be to be linked to it
 constexpr float kFlat = 0.01f;  // how far a link may leave the plane, as a sine, where faces are parallel
 constexpr float kLinkCosine = 0.8f;  // between the normals of linked texels
 constexpr float kWalkCosine = 0.9f;  // between the normals of a walk's start and end
@@ -50,16 +51,17 @@ TexelGraph::TexelGraph(std::vector<TexelNode> nodes, const Blocked& blocked) : n
   if (nodes_.empty()) return;
   const Points points{nodes_};
   const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  // The wider-spaced of two texels looks for the other: its reach covers both.
+  // The finer of two texels looks for the other: a coarse one would look through all of a crowded corner.
   std::vector<std::vector<uint32_t>> found(size());
   parallel_for(size(), 256, [&](std::size_t i) {
     const TexelNode& node = nodes_[i];
-    const float reach = 2 * kReach * node.spacing;
+    const float reach = kReach * (1 + kCoarser) * node.spacing;
     std::vector<std::pair<uint32_t, float>> matches;
     tree.radiusSearch(&node.position.x, reach * reach, matches, nanoflann::SearchParams());
     for (const auto& [j, squared] : matches) {
       const float other = nodes_[j].spacing;
-      if (j == i || other > node.spacing || (other == node.spacing && j < i)) continue;
+      if (other < node.spacing || other > kCoarser * node.spacing) continue;
+      if (j == i || (other == node.spacing && j < i)) continue;
       if (linked(node, nodes_[j], blocked)) found[i].push_back(j);
     }
     std::sort(found[i].begin(), found[i].end());

@@ -26,8 +26,8 @@ class TexelGraph {
   /// Does something stand between two points?
   using Blocked = std::function<bool(const Vec3& from, const Vec3& to)>;
 
-  /// Links texels at most 0.8 of their spacings' sum apart, on one smooth surface, with nothing in between
-  /// right above it. Same links at any thread count.
+  /// Links texels at most 0.8 of their spacings' sum apart, of like spacing, on one smooth surface, with
+  /// nothing in between right above it. Same links at any thread count.
   TexelGraph(std::vector<TexelNode> nodes, const Blocked& blocked);
 
   std::size_t size() const { return nodes_.size(); }
