@@ -3,8 +3,8 @@
 // mean of (x - r)^2 / (r^2 + (mean / 10)^2); mse, over the squared mean; both freed of the reference's noise
 // and weighted by area; stated, what the texels' errors say the mse is; mean, how far the layer's mean is
 // off; gain, error of the many over error of the few denoised. Default: three scenes below SCONCE_TEST_DATA;
-// or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples, REFERENCE (4096), PAGE (128),
-// SOLVER (path), CACHE (folder that keeps the bakes for the next run).
+// or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples, REFERENCE (1024), PAGE (256;
+// the kitchen 512), SOLVER (path), CACHE (folder that keeps the bakes for the next run).
 #include <fmt/format.h>
 
 #include <chrono>
@@ -36,19 +36,19 @@ struct Bench {
   TexelReceivers receivers;
   std::vector<double> areas;
 
-  explicit Bench(Scene&& s)
+  Bench(Scene&& s, const char* page)
       : scene(std::move(s)),
         world(make_world(scene)),
         tracer(scene, world),
         lamps(scene, world),
-        atlas(make(scene, world, tracer)),
+        atlas(make(scene, world, tracer, page)),
         receivers(world, tracer, atlas) {
     for (std::size_t i = 0; i < receivers.size(); ++i)
       areas.push_back(static_cast<double>(receivers.footprint(i).area));
   }
-  static Atlas make(const Scene& scene, const World& world, const Tracer& tracer) {
+  static Atlas make(const Scene& scene, const World& world, const Tracer& tracer, const char* page) {
     AtlasParams params;
-    params.page_size = std::stoi(setting("PAGE", "128"));
+    params.page_size = std::stoi(setting("PAGE", page));
     return make_atlas(scene, world, tracer, params);
   }
 
@@ -113,12 +113,12 @@ Score score(const Bench& bench, const std::vector<GroupValue>& x, const std::vec
 void run(const std::string& path) {
   Scene scene = import_scene(path);
   assign_groups(scene, Grouping::automatic);
-  const Bench bench(std::move(scene));
   const std::string name = std::filesystem::path(path).stem().string();
+  const Bench bench(std::move(scene), name == "luxcore-kitchen" ? "512" : "256");
   const std::size_t groups = bench.scene.groups.size();
   const int low_samples = std::stoi(setting("LOW", "64")), high_samples = std::stoi(setting("HIGH", "512"));
   const auto low = bench.bake(name, low_samples, 1), high = bench.bake(name, high_samples, 2),
-             reference = bench.bake(name, std::stoi(setting("REFERENCE", "4096")), 3);
+             reference = bench.bake(name, std::stoi(setting("REFERENCE", "1024")), 3);
   const auto start = std::chrono::steady_clock::now();
   const TexelGraph graph = make_texel_graph(bench.atlas, bench.receivers, bench.tracer);
   const auto linked = std::chrono::steady_clock::now();

@@ -27,7 +27,7 @@ struct Pass {
 // filter the raw values. Radii and strictness are those that left the least error in
 // bench/results/denoise.txt.
 constexpr Pass kPasses[] = {{1.8f, 13}, {4, 3}, {6, 3}};
-constexpr float kStrictness = 0.1f;  // of a weight's fall with the squared difference, in variances
+constexpr float kStrictness = 0.2f;  // of a weight's fall with the squared difference, in variances
 constexpr float kVarianceRadius = 3;
 
 class Filter {
