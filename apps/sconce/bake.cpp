@@ -134,7 +134,7 @@ int execute(const Request& request, const Options& options, const Progress& prog
 int run_bake(int argc, const char* const* argv) {
   Options options("bake", "Computes one lightmap per light group of a scene and writes them as a package.");
   Request request;
-  std::string scene, output, shard, quality = "normal";
+  std::string scene, output, shard, quality = "normal", denoise = "off";
   int samples = 0, bounces = -1, seed = 1, page = 0;
   double density = 0, noise = 0, photons = 0;
   bool direct_estimate = false;
@@ -158,6 +158,8 @@ int run_bake(int argc, const char* const* argv) {
   options.flag("--direct-estimate", &direct_estimate,
                "photon solver: texels show the map itself, no final gather");
   options.option("--encoding", &job.encoding, "f16 or f32, and exceptions by group: f16,ceiling=f32");
+  options.option("--denoise", &denoise,
+                 "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
   options.option("--seed", &seed, "random seed");
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
   options.flag("--resume", &request.resume, "continue an interrupted bake");
@@ -190,6 +192,9 @@ int run_bake(int argc, const char* const* argv) {
       throw UsageError(option, "means nothing to the solver " + job.solver,
                        std::string("--solver ") + solver);
   if (noise > 0 && samples == 0) samples = samples_of("final");
+  if (denoise != "on" && denoise != "off")
+    throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");
+  job.denoise = denoise == "on";
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;
   job.params.noise = noise;

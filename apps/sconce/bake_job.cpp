@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "encode/encoding.h"
 #include "import/import.h"
+#include "solve/denoise.h"
 
 namespace sconce::app {
 
@@ -65,23 +66,37 @@ std::vector<std::string> group_encodings(const std::string& text, const Scene& s
   return result;
 }
 
+/// All groups' values as images. @return means and noise; the pages are moved into `layers`
+std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vector<GroupValue>> values,
+                            std::span<const float> areas, std::vector<std::vector<Image>>& layers,
+                            std::vector<Image>& noise, const Progress& progress) {
+  std::vector<std::string> channels;
+  for (const LightGroup& group : bake.scene.groups) channels.push_back(group.name);
+  for (int p = 0; p < bake.atlas.pages; ++p)
+    noise.push_back(Image(bake.atlas.width, bake.atlas.height, channels));
+  std::vector<Layer> result;
+  for (std::size_t g = 0; g < values.size(); ++g) {
+    progress.at("layers", g, values.size());
+    progress.check();
+    Layer& layer = result.emplace_back(assemble_layer(values[g], bake.atlas, bake.receivers, areas));
+    for (std::size_t p = 0; p < layer.noise.size(); ++p)
+      for (std::size_t i = 0; i < layer.noise[p].pixels(); ++i)
+        noise[p].data[i * channels.size() + g] = layer.noise[p].data[i];
+    layer.noise.clear();
+    layers.push_back(std::move(layer.pages));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string BakeJob::to_json() const {
-  const nlohmann::json json = {{"scene", scene.string()},
-                               {"grouping", grouping},
-                               {"solver", solver},
-                               {"encoding", encoding},
-                               {"page_size", atlas.page_size},
-                               {"max_page", atlas.max_page},
-                               {"density", atlas.density},
-                               {"samples", params.samples},
-                               {"bounces", params.bounces},
-                               {"seed", params.seed},
-                               {"noise", params.noise},
-                               {"cloud", params.cloud},
-                               {"photons", params.photons},
-                               {"final_gather", params.final_gather}};
+  const nlohmann::json json = {
+      {"scene", scene.string()},    {"grouping", grouping},      {"solver", solver},
+      {"encoding", encoding},       {"denoise", denoise},        {"page_size", atlas.page_size},
+      {"max_page", atlas.max_page}, {"density", atlas.density},  {"samples", params.samples},
+      {"bounces", params.bounces},  {"seed", params.seed},       {"noise", params.noise},
+      {"cloud", params.cloud},      {"photons", params.photons}, {"final_gather", params.final_gather}};
   return json.dump();
 }
 
@@ -93,6 +108,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("grouping").get_to(job.grouping);
     json.at("solver").get_to(job.solver);
     json.at("encoding").get_to(job.encoding);
+    json.at("denoise").get_to(job.denoise);
     json.at("page_size").get_to(job.atlas.page_size);
     json.at("max_page").get_to(job.atlas.max_page);
     json.at("density").get_to(job.atlas.density);
@@ -133,7 +149,7 @@ BakeHeader PreparedBake::header() const {
 }
 
 std::string PreparedBake::result_hash() const {
-  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).hex();
+  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).value(job.denoise).hex();
 }
 
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
@@ -187,6 +203,7 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
   manifest.options = options;
   manifest.facts = {{"solver", bake.job.solver},
                     {"samples", fmt::format("{}", bake.job.params.samples)},
+                    {"denoised", bake.job.denoise ? "yes" : "no"},
                     {"isa", isa()},
                     {"seed", fmt::format("{}", bake.job.params.seed)},
                     {"result_hash", bake.result_hash()},
@@ -198,22 +215,18 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
                                             atlas.report.stretch_max)}};
   contents.encodings = group_encodings(bake.job.encoding, bake.scene);
 
-  std::vector<std::string> noise_channels;
-  for (const LightGroup& group : bake.scene.groups) noise_channels.push_back(group.name);
-  for (int p = 0; p < atlas.pages; ++p)
-    contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
+  std::vector<std::vector<GroupValue>> values;
+  for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) values.push_back(collect_values(states, g));
+  if (bake.job.denoise) {
+    assemble(bake, values, areas, contents.raw, contents.raw_noise, progress);
+    values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress);
+  }
+  const std::vector<Layer> layers = assemble(bake, values, areas, contents.layers, contents.noise, progress);
   const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
   for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
-    progress.at("layers", g, bake.scene.groups.size());
-    progress.check();
-    Layer layer = assemble_layer(states, g, atlas, bake.receivers, areas);
-    for (std::size_t p = 0; p < layer.noise.size(); ++p)
-      for (std::size_t i = 0; i < page_texels; ++i)
-        contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i];
     const GroupFlux& flux = fluxes[g];
     manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite,
-                               layer.mean_lux, layer.relative_noise, flux.lamps});
-    contents.layers.push_back(std::move(layer.pages));
+                               layers[g].mean_lux, layers[g].relative_noise, flux.lamps});
   }
   contents.scene = std::move(baked.scene);
   progress.at("write", 0, 1);

@@ -18,6 +18,7 @@ struct BakeJob {
   std::string solver = "radiosity";
   std::string encoding =
       "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
+  bool denoise = false;
   AtlasParams atlas;
   BakeParams params;
 
@@ -51,7 +52,7 @@ struct PreparedBake {
 /// Bakes the tiles that `state` lacks.
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
 
-/// Fills gaps and writes the package. @throws Error: tiles missing, unwritable
+/// Denoises if asked to, fills gaps and writes the package. @throws Error: tiles missing, unwritable
 /// @param options  provenance for the manifest
 /// @return what was written
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,

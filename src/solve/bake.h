@@ -26,10 +26,14 @@ struct Layer {
   double mean_lux = 0;        ///< area-weighted
   double relative_noise = 0;  ///< area-weighted rms of (error / mean of the layer)
 };
-/// @param states  their union must hold every tile
+/// @param values  per receiver
 /// @param areas   per receiver, m2
-Layer assemble_layer(std::span<BakeState> states, uint32_t group, const Atlas& atlas,
-                     const TexelReceivers& receivers, std::span<const float> areas);
+Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, const TexelReceivers& receivers,
+                     std::span<const float> areas);
+
+/// One group's values of all receivers.
+/// @param states  their union must hold every tile
+std::vector<GroupValue> collect_values(std::span<BakeState> states, uint32_t group);
 
 /// Tiles that none of the states holds with these params.
 std::vector<std::size_t> missing_tiles(std::span<BakeState> states, const BakeParams& params);
