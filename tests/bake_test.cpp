@@ -138,6 +138,28 @@ TEST_F(Bake, TornRecordIsDroppedAndMadeAgain) {
   EXPECT_EQ(fs::file_size(path), size);
 }
 
+TEST_F(Bake, DenoisingKeepsTheRawLayers) {
+  const auto bake = [&](const char* name, bool denoise, int threads) {
+    const ThreadLimit limit(threads);
+    app::BakeJob with = job(32);
+    with.denoise = denoise;
+    const app::PreparedBake prepared(with, {});
+    BakeState state = BakeState::create(folder / "denoise.state", prepared.header());
+    app::run_bake(prepared, {}, state, {});
+    app::write_result(prepared, std::span(&state, 1), folder / name, {}, {});
+    return Package::open(folder / name);
+  };
+  const Package plain = bake("plain.sconce", false, 2), clean = bake("clean.sconce", true, 2);
+  bake("again.sconce", true, 1);
+  EXPECT_EQ(bytes(folder / "clean.sconce"), bytes(folder / "again.sconce"));
+  for (std::size_t g = 0; g < plain.manifest().groups.size(); ++g) {
+    EXPECT_EQ(clean.undenoised().layer(g, 0).data, plain.layer(g, 0).data);
+    const GroupInfo &before = plain.manifest().groups[g], &after = clean.manifest().groups[g];
+    EXPECT_LT(after.noise, before.noise / 2) << before.name;
+    EXPECT_NEAR(after.mean_lux, before.mean_lux, 0.01 * before.mean_lux) << before.name;
+  }
+}
+
 TEST_F(Bake, GroupsSumToOne) {
   app::BakeJob split = job(), whole = job();
   split.encoding = whole.encoding = "f32";

@@ -144,7 +144,7 @@ TEST(Layers, LibrariesStayInTheirPlace) {
 TEST(House, EveryFileNamesItsLicence) {
   std::vector<fs::path> files = cpp_files();
   for (const char* folder :
-       {"src", "apps", "tests", "bench", "scenes", "examples", "cmake", "tools", ".ci"}) {
+       {"src", "apps", "tests", "bench", "scenes", "solvers", "examples", "cmake", "tools", ".ci"}) {
     const auto scripts = files_below(folder, {".cmake", ".sh", ".py", ".txt", ".glsl", ""});
     files.insert(files.end(), scripts.begin(), scripts.end());
   }

@@ -65,7 +65,8 @@ struct Rig {
 class Leaks : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Rows, Leaks, testing::ValuesIn([] {
                            std::vector<std::string> names;
-                           for (const SolverRow& row : solvers()) names.emplace_back(row.name);
+                           for (const SolverRow& row : solvers())
+                             if (!row.runs_program) names.emplace_back(row.name);
                            return names;
                          }()),
                          [](const auto& row) { return row.param; });

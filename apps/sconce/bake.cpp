@@ -46,6 +46,7 @@ struct Given {
   int samples = 0, bounces = -1, seed = 1, page = 0;
   double density = 0, noise = 0, photons = 0;
   bool direct_estimate = false;
+  std::string denoise = "off";
 };
 
 /// What this verb's options say, checked.
@@ -135,13 +136,14 @@ int execute(const Request& request, const Options& options, RankSession& session
 /// @return exit code when nothing is left to do
 std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
   auto& [scene, output, shard, quality, samples, bounces, seed, page, density, noise, photons,
-         direct_estimate] = request.given;
+         direct_estimate, denoise] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
-  options.option("--solver", &job.solver, "how light travels: radiosity, path, photon");
+  options.option("--solver", &job.solver,
+                 "how light travels: radiosity, path, photon, or external:CMD, a program run once per group");
   options.option("--atlas", &page, "page size in texels; the density follows (default: 1024)");
   options.option("--density", &density, "texels per metre; pages follow, up to 4096 each");
   options.option("--quality", &quality, "draft, normal or final: 32, 128 or 1024 samples");
@@ -155,6 +157,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   options.flag("--direct-estimate", &direct_estimate,
                "photon solver: texels show the map itself, no final gather");
   options.option("--encoding", &job.encoding, "f16 or f32, and exceptions by group: f16,ceiling=f32");
+  options.option("--denoise", &denoise,
+                 "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
   options.option("--seed", &seed, "random seed");
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
   options.flag("--resume", &request.resume, "continue an interrupted bake");
@@ -187,6 +191,9 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
       throw UsageError(option, "means nothing to the solver " + job.solver,
                        std::string("--solver ") + solver);
   if (noise > 0 && samples == 0) samples = samples_of("final");
+  if (denoise != "on" && denoise != "off")
+    throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");
+  job.denoise = denoise == "on";
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;
   job.params.noise = noise;
@@ -196,7 +203,10 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   job.atlas.density = static_cast<float>(density);
   job.atlas.page_size = density > 0 ? 0 : page > 0 ? page : 1024;
   parse_grouping(job.grouping);
-  find_solver(job.solver);
+  const bool runs_program = find_solver(job.solver).runs_program;
+  if (runs_program && noise > 0) throw UsageError("--noise", "cannot stand beside --solver " + job.solver);
+  if (runs_program && !shard.empty())
+    throw UsageError("--shard", "cannot stand beside --solver " + job.solver + ", which bakes whole pages");
   if (!shard.empty()) request.shard = parse_shard(shard);
   request.output =
       output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);
@@ -214,8 +224,12 @@ int run_bake(int argc, const char* const* argv) {
     std::optional<int> code;
     session.together([&] {
       code = read_request(argc, argv, options, request);
+      if (code) return;
       if (request.shard && session.ranks().count > 1)
         throw UsageError("--shard", "cannot stand beside several MPI ranks: they share the texels already");
+      if (find_solver(request.job.solver).runs_program && session.ranks().count > 1)
+        throw UsageError("--solver " + request.job.solver,
+                         "bakes whole pages, so ranks have nothing to share", "one process");
     });
     if (code) return *code;
     const ThreadLimit threads(options.threads);

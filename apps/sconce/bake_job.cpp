@@ -11,6 +11,7 @@
 #include "encode/encoding.h"
 #include "import/import.h"
 #include "receive/layout.h"
+#include "solve/denoise.h"
 #include "solve/inputs.h"
 
 namespace sconce::app {
@@ -81,23 +82,52 @@ Atlas make_layout(const PreparedBake& bake, const Progress& progress) {
   return unpack_layout(before.layout(), bake.world.size(), before.path().string());
 }
 
+/// All groups' values as images, empty for kept groups. @return means and noise; the pages are moved into
+/// `layers`
+std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vector<GroupValue>> values,
+                            std::span<const float> areas, std::vector<std::vector<Image>>& layers,
+                            std::vector<Image>& noise, const Progress& progress) {
+  std::vector<std::string> channels;
+  for (const LightGroup& group : bake.scene.groups) channels.push_back(group.name);
+  for (int p = 0; p < bake.atlas.pages; ++p)
+    noise.push_back(Image(bake.atlas.width, bake.atlas.height, channels));
+  std::vector<Layer> result;
+  std::vector<Image> old_noise;
+  for (int p = 0; p < bake.atlas.pages && bake.plan.count(false) > 0; ++p)
+    old_noise.push_back(bake.plan.before()->noise(p));
+  for (std::size_t g = 0; g < values.size(); ++g) {
+    progress.at("layers", g, values.size());
+    progress.check();
+    if (const auto kept = bake.plan.kept(g)) {
+      const GroupInfo& before = bake.plan.before()->manifest().groups[*kept];
+      for (std::size_t p = 0; p < old_noise.size(); ++p)
+        for (std::size_t i = 0; i < old_noise[p].pixels(); ++i)
+          noise[p].data[i * channels.size() + g] = old_noise[p].data[i * old_noise[p].stride() + *kept];
+      result.emplace_back();
+      result.back().mean_lux = before.mean_lux;
+      result.back().relative_noise = before.noise;
+      layers.emplace_back();
+      continue;
+    }
+    Layer& layer = result.emplace_back(assemble_layer(values[g], bake.atlas, bake.receivers, areas));
+    for (std::size_t p = 0; p < layer.noise.size(); ++p)
+      for (std::size_t i = 0; i < layer.noise[p].pixels(); ++i)
+        noise[p].data[i * channels.size() + g] = layer.noise[p].data[i];
+    layer.noise.clear();
+    layers.push_back(std::move(layer.pages));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string BakeJob::to_json() const {
-  const nlohmann::json json = {{"scene", scene.string()},
-                               {"grouping", grouping},
-                               {"solver", solver},
-                               {"encoding", encoding},
-                               {"page_size", atlas.page_size},
-                               {"max_page", atlas.max_page},
-                               {"density", atlas.density},
-                               {"samples", params.samples},
-                               {"bounces", params.bounces},
-                               {"seed", params.seed},
-                               {"noise", params.noise},
-                               {"cloud", params.cloud},
-                               {"photons", params.photons},
-                               {"final_gather", params.final_gather}};
+  const nlohmann::json json = {
+      {"scene", scene.string()},    {"grouping", grouping},      {"solver", solver},
+      {"encoding", encoding},       {"denoise", denoise},        {"page_size", atlas.page_size},
+      {"max_page", atlas.max_page}, {"density", atlas.density},  {"samples", params.samples},
+      {"bounces", params.bounces},  {"seed", params.seed},       {"noise", params.noise},
+      {"cloud", params.cloud},      {"photons", params.photons}, {"final_gather", params.final_gather}};
   return json.dump();
 }
 
@@ -109,6 +139,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("grouping").get_to(job.grouping);
     json.at("solver").get_to(job.solver);
     json.at("encoding").get_to(job.encoding);
+    json.at("denoise").get_to(job.denoise);
     json.at("page_size").get_to(job.atlas.page_size);
     json.at("max_page").get_to(job.atlas.max_page);
     json.at("density").get_to(job.atlas.density);
@@ -129,8 +160,9 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
     : job(job_),
       scene(load(job, progress)),
       world(make_world(scene)),
-      inputs(layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa())),
-      plan(inputs, group_encodings(job.encoding, scene), before),
+      inputs(layer_inputs(scene, world,
+                          how_hash(job) + made_with(job.params) + isa() + (job.denoise ? "denoised" : ""))),
+      plan(inputs, group_encodings(job.encoding, scene), before, job.denoise),
       tracer(scene, world),
       lamps(scene, world),
       atlas(make_layout(*this, progress)),
@@ -154,14 +186,14 @@ BakeHeader PreparedBake::header() const {
 }
 
 bool PreparedBake::up_to_date() const {
-  if (plan.before() == nullptr || plan.count(true) > 0) return false;
+  if (plan.before() == nullptr) return false;
   const auto& facts = plan.before()->manifest().facts;
   const auto found = facts.find("result_hash");
   return found != facts.end() && found->second == result_hash();
 }
 
 std::string PreparedBake::result_hash() const {
-  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).hex();
+  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).value(job.denoise).hex();
 }
 
 void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, BakeState& state,
@@ -169,7 +201,11 @@ void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, Bake
   const std::vector<uint8_t> wanted = bake.plan.wanted();
   const SolveContext context{bake.scene,  bake.world,      bake.tracer, bake.lamps,
                              &bake.atlas, &bake.receivers, wanted,      ranks};
-  const auto solver = find_solver(bake.job.solver).prepare(context, bake.job.params, progress);
+  BakeParams params = bake.job.params;
+  params.command = solver_command(bake.job.solver);
+  params.work_folder = state.path();
+  params.work_folder.replace_extension(".external");
+  const auto solver = find_solver(bake.job.solver).prepare(context, params, progress);
   bake_tiles(*solver, bake.job.params, bake.receivers, wanted, tiles, state, progress);
 }
 
@@ -221,6 +257,7 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
   manifest.options = options;
   manifest.facts = {{"solver", bake.job.solver},
                     {"samples", fmt::format("{}", bake.job.params.samples)},
+                    {"denoised", bake.job.denoise ? "yes" : "no"},
                     {"isa", isa()},
                     {"seed", fmt::format("{}", bake.job.params.seed)},
                     {"result_hash", bake.result_hash()},
@@ -232,46 +269,24 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
                                             atlas.report.stretch_max)}};
   contents.encodings = group_encodings(bake.job.encoding, bake.scene);
 
-  std::vector<std::string> noise_channels;
-  for (const LightGroup& group : bake.scene.groups) noise_channels.push_back(group.name);
-  std::vector<Image> old_noise;
-  for (int p = 0; p < atlas.pages; ++p) {
-    contents.noise.push_back(Image(atlas.width, atlas.height, noise_channels));
-    if (plan.count(false) > 0) old_noise.push_back(plan.before()->noise(p));
-  }
-  const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
+  std::vector<std::vector<GroupValue>> values;
   contents.kept.resize(bake.scene.groups.size());
   uint32_t solved = 0;
   for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
-    progress.at("layers", g, bake.scene.groups.size());
-    progress.check();
+    if (const auto kept = plan.kept(g)) contents.kept[g] = {plan.before(), *kept};
+    values.push_back(plan.kept(g) ? std::vector<GroupValue>{}
+                                  : collect_values(states, bake.job.params, solved++));
+  }
+  if (bake.job.denoise) {
+    assemble(bake, values, areas, contents.raw, contents.raw_noise, progress);
+    values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress);
+  }
+  const std::vector<Layer> layers = assemble(bake, values, areas, contents.layers, contents.noise, progress);
+  const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
+  for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {
     const GroupFlux& flux = fluxes[g];
-    GroupInfo info{bake.scene.groups[g].name,
-                   flux.lumens,
-                   flux.color,
-                   flux.spread,
-                   flux.infinite,
-                   0,
-                   0,
-                   flux.lamps,
-                   bake.inputs[g]};
-    Layer layer;
-    std::size_t from = 0, stride = 1;  // of the group's channel of noise
-    if (const auto kept = plan.kept(g)) {
-      const GroupInfo& before = plan.before()->manifest().groups[*kept];
-      info.mean_lux = before.mean_lux, info.noise = before.noise;
-      contents.kept[g] = {plan.before(), *kept};
-      layer.noise = old_noise;
-      from = *kept, stride = plan.before()->manifest().groups.size();
-    } else {
-      layer = assemble_layer(states, bake.job.params, solved++, atlas, bake.receivers, areas);
-      info.mean_lux = layer.mean_lux, info.noise = layer.relative_noise;
-    }
-    for (std::size_t p = 0; p < layer.noise.size(); ++p)
-      for (std::size_t i = 0; i < page_texels; ++i)
-        contents.noise[p].data[i * noise_channels.size() + g] = layer.noise[p].data[i * stride + from];
-    manifest.groups.push_back(std::move(info));
-    contents.layers.push_back(std::move(layer.pages));
+    manifest.groups.push_back({bake.scene.groups[g].name, flux.lumens, flux.color, flux.spread, flux.infinite,
+                               layers[g].mean_lux, layers[g].relative_noise, flux.lamps, bake.inputs[g]});
   }
   contents.layout = pack_layout(atlas);
   contents.scene = std::move(baked.scene);

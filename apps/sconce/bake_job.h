@@ -18,6 +18,7 @@ struct BakeJob {
   std::string solver = "radiosity";
   std::string encoding =
       "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
+  bool denoise = false;
   AtlasParams atlas;
   BakeParams params;
 
@@ -59,7 +60,8 @@ void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, Bake
 /// Bakes the tiles of the shard that `state` lacks.
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
 
-/// Fills gaps, takes over what is kept and writes the package. @throws Error: tiles missing, unwritable
+/// Denoises if asked to, fills gaps, takes over what is kept and writes the package. @throws Error: tiles
+/// missing, unwritable
 /// @param options  provenance for the manifest
 /// @return what was written
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,

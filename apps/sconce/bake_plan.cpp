@@ -29,7 +29,7 @@ bool fine_enough(const Manifest& manifest, std::size_t group, const std::string&
 }  // namespace
 
 BakePlan::BakePlan(const std::vector<std::string>& inputs, const std::vector<std::string>& encodings,
-                   const std::filesystem::path& package)
+                   const std::filesystem::path& package, bool denoised)
     : kept_(inputs.size()) {
   if (package.empty()) return;
   try {
@@ -38,7 +38,7 @@ BakePlan::BakePlan(const std::vector<std::string>& inputs, const std::vector<std
     return;  // none, or one to replace
   }
   const Manifest& manifest = before_->manifest();
-  if (!can_give(manifest)) return;
+  if (denoised || !can_give(manifest)) return;
   for (std::size_t g = 0; g < inputs.size(); ++g)
     for (std::size_t old = 0; old < manifest.groups.size() && !kept_[g]; ++old)
       if (manifest.groups[old].inputs == inputs[g] && fine_enough(manifest, old, encodings[g]))

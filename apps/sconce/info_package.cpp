@@ -61,6 +61,12 @@ void add_layers(const Manifest& m, InfoReport& report) {
   }
   report.text += fmt::format("layers        {}, {} MB\n", m.layers.size(), megabytes(bytes));
   if (!m.layers.empty()) report.text += table.text();
+  uint64_t raw_bytes = 0;
+  for (const LayerInfo& layer : m.raw) raw_bytes += layer.bytes;
+  report.json["raw_layers"] = {{"count", m.raw.size()}, {"bytes", raw_bytes}};
+  if (!m.raw.empty())
+    report.text +=
+        fmt::format("raw layers    {}, {} MB, before the denoiser\n", m.raw.size(), megabytes(raw_bytes));
 }
 
 void add_options(const Manifest& m, InfoReport& report) {

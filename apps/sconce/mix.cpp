@@ -32,6 +32,7 @@ Mixed mix_input(const std::string& input, const MixOptions& settings, const Prog
   const Preset preset = settings.preset();
   Mixed out;
   if (fs::is_regular_file(input)) {
+    if (settings.raw) throw UsageError("option '--raw'", input + " is a picture", "a package");
     Image image;
     try {
       image = read_exr(input);
@@ -44,7 +45,7 @@ Mixed mix_input(const std::string& input, const MixOptions& settings, const Prog
     out.pages.push_back(mix_layers(layered, out.mix));
     return out;
   }
-  const Package package = Package::open(input);
+  const Package package = settings.open(input);
   out.groups = package.manifest().groups;
   out.mix = settings.make(preset, out.groups, progress);
   for (int page = 0; page < package.manifest().pages; ++page) {

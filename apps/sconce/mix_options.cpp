@@ -22,6 +22,12 @@ void MixOptions::declare(Options& options) {
       "a glob, or 'all'");
   options.option("--preset", &preset_file, "TOML file with settings, exposure, tone and camera");
   options.option("--others", &others, "setting of every group that is not named");
+  options.flag("--raw", &raw, "the layers as they were before the denoiser");
+}
+
+Package MixOptions::open(const std::string& path) const {
+  Package package = Package::open(path);
+  return raw ? package.undenoised() : package;
 }
 
 Preset MixOptions::preset() const {

@@ -16,8 +16,11 @@ namespace sconce::app {
 struct MixOptions {
   std::vector<std::string> settings;
   std::string preset_file, others;
+  bool raw = false;
 
   void declare(Options& options);
+  /// The package to mix: as it stands, or as it was before the denoiser. @throws Error
+  Package open(const std::string& path) const;
   /// The preset's file, or an empty preset. @throws UsageError, Error
   Preset preset() const;
   /// The preset's settings first, then the command line's, which win. @throws UsageError

@@ -107,7 +107,7 @@ int run_render(int argc, const char* const* argv) {
     const Progress progress = make_progress(options);
     if (linear && tone_given && tone.name != "linear")
       progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone + " is not applied");
-    const Package package = Package::open(input);
+    const Package package = settings.open(input);
     groups = package.manifest().groups;
     rendered = render(package, picture, settings, preset, exposed, progress);
     exposure = exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);

@@ -81,9 +81,9 @@ LayerInfo parse_layer(const JsonValue& v, const Manifest& m) {
 }
 
 // Every group has each page exactly once.
-void check_layers(const JsonValue& list, const Manifest& m) {
+void check_layers(const JsonValue& list, const Manifest& m, const std::vector<LayerInfo>& layers) {
   std::vector<int> seen(m.groups.size() * static_cast<std::size_t>(m.pages), 0);
-  for (const LayerInfo& layer : m.layers)
+  for (const LayerInfo& layer : layers)
     ++seen[layer.group * static_cast<std::size_t>(m.pages) + static_cast<std::size_t>(layer.page)];
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i] == 1) continue;
@@ -91,6 +91,18 @@ void check_layers(const JsonValue& list, const Manifest& m) {
     list.fail((seen[i] == 0 ? "misses page " : "has more than one page ") + std::to_string(i % pages) +
               " of group '" + m.groups[i / pages].name + "'");
   }
+}
+
+Json print_layers(const std::vector<LayerInfo>& layers, const Manifest& m) {
+  Json list = Json::array();
+  for (const LayerInfo& l : layers)
+    list.push_back({{"group", m.groups.at(l.group).name},
+                    {"page", l.page},
+                    {"encoding", l.encoding},
+                    {"file", l.file},
+                    {"hash", l.hash},
+                    {"bytes", l.bytes}});
+  return list;
 }
 
 }  // namespace
@@ -157,14 +169,8 @@ std::string print_manifest(const Manifest& m) {
                            {"lamps", g.lamps},
                            {"inputs", g.inputs}});
   }
-  j["layers"] = Json::array();
-  for (const LayerInfo& l : m.layers)
-    j["layers"].push_back({{"group", m.groups.at(l.group).name},
-                           {"page", l.page},
-                           {"encoding", l.encoding},
-                           {"file", l.file},
-                           {"hash", l.hash},
-                           {"bytes", l.bytes}});
+  j["layers"] = print_layers(m.layers, m);
+  if (!m.raw.empty()) j["raw"] = print_layers(m.raw, m);
   j["files"] = Json(m.hashes);
   j["options"] = Json::object();
   for (const auto& [name, option] : m.options)
@@ -206,7 +212,12 @@ Manifest parse_manifest(std::string_view text, const std::string& where) {
   const JsonValue groups = root.at("groups"), layers = root.at("layers");
   for (std::size_t i = 0; i < groups.size(); ++i) m.groups.push_back(parse_group(groups.at(i)));
   for (std::size_t i = 0; i < layers.size(); ++i) m.layers.push_back(parse_layer(layers.at(i), m));
-  check_layers(layers, m);
+  check_layers(layers, m, m.layers);
+  if (root.has("raw")) {
+    const JsonValue raw = root.at("raw");
+    for (std::size_t i = 0; i < raw.size(); ++i) m.raw.push_back(parse_layer(raw.at(i), m));
+    check_layers(raw, m, m.raw);
+  }
 
   const JsonValue files = root.at("files"), options = root.at("options"), facts = root.at("facts");
   for (const std::string& name : files.keys()) {

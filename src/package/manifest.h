@@ -30,6 +30,9 @@ bool is_base_name(std::string_view name);
 /// `_`; what then is the same gets a number.
 std::vector<std::string> layer_names(std::span<const GroupInfo> groups);
 
+/// Folders of the layers and of those before the denoiser.
+inline constexpr std::string_view kLayerFolder = "layers", kRawFolder = "raw";
+
 /// "receivers.0.exr" and the like.
 std::string page_file(std::string_view stem, int page);
 /// "sky.exr", "sky.1.exr", ...: the radiance of the n-th sky light.

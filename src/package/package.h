@@ -58,8 +58,9 @@ struct Manifest {
   std::vector<int> instance_twins;  ///< per mesh node: node of its twin (same triangles from behind), or -1
   std::vector<GroupInfo> groups;
   std::vector<LayerInfo> layers;
+  std::vector<LayerInfo> raw;  ///< the layers before the denoiser, of the same form; empty = not denoised
   std::map<std::string, std::string>
-      hashes;  ///< other files (scene.glb, receivers.N.exr, noise.N.exr) -> hash
+      hashes;  ///< other files (scene.glb, receivers.N.exr, noise.N.exr, raw-noise.N.exr) -> hash
   std::map<std::string, Provenance> options;  ///< every option of the bake
   std::map<std::string, std::string> facts;   ///< solver, samples, isa, seed, statistics: free text
 };
@@ -74,7 +75,7 @@ struct KeptLayer {
 
 /// What a writer hands over. Images are per page: layers[group][page], RGB lux.
 struct PackageContents {
-  Manifest manifest;  ///< layers, hashes are filled in by the writer
+  Manifest manifest;  ///< layers, raw, hashes are filled in by the writer
   Scene scene;        ///< BakedScene::scene
   std::vector<std::vector<Image>> layers;
   /// Per group: taken over instead of layers[group]; empty = none. Files are linked where name and encoding
@@ -84,6 +85,8 @@ struct PackageContents {
   std::vector<Image> receivers;  ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
   std::vector<Image> noise;      ///< per page: one channel per group, relative standard error
   std::string layout;            ///< receive/layout.h; may be empty
+  std::vector<std::vector<Image>> raw;  ///< before the denoiser, as `layers`; empty = there was none
+  std::vector<Image> raw_noise;         ///< of `raw`, as `noise`
 };
 
 /// Writes beside and renames. @throws Error (unwritable, disk full); nothing half-written stays
@@ -95,6 +98,10 @@ class Package {
   /// @throws Error: no package, other version (both named), missing or damaged file (named); NotMyFormat when
   /// not a package
   static Package open(const std::filesystem::path& path, bool check_hashes = true);
+
+  /// The same package as it was before the denoiser: layer() and noise() are the solver's own.
+  /// @throws Error when it was not denoised
+  Package undenoised() const;
 
   const Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& path() const { return path_; }
@@ -110,6 +117,7 @@ class Package {
  private:
   std::filesystem::path path_;
   Manifest manifest_;
+  bool raw_ = false;
 };
 
 }  // namespace sconce

@@ -53,6 +53,30 @@ TEST(Package, FloatLayersComeBackBitForBit) {
   EXPECT_FALSE(fs::exists(folder / ("x.sconce.writing-" + std::to_string(::getpid()))));
 }
 
+TEST(Package, RawLayersStandBesideDenoisedOnes) {
+  const TemporaryFolder folder;
+  PackageContents c = test_package(2, 2, 9, 5);
+  write_package(folder / "plain.sconce", c);
+  EXPECT_THROW(Package::open(folder / "plain.sconce").undenoised(), Error);
+
+  c.raw = c.layers;
+  c.raw_noise = c.noise;
+  for (auto& group : c.raw)
+    for (Image& page : group)
+      for (float& v : page.data) v += 1;
+  for (Image& page : c.raw_noise)
+    for (float& v : page.data) v = 0.25f;
+  write_package(folder / "x.sconce", c);
+  const Package package = Package::open(folder / "x.sconce"), raw = package.undenoised();
+  EXPECT_EQ(package.layer(1, 1).data, c.layers[1][1].data);
+  EXPECT_EQ(package.noise(1).data, c.noise[1].data);
+  EXPECT_EQ(raw.layer(1, 1).data, c.raw[1][1].data);
+  EXPECT_EQ(raw.noise(1).data, c.raw_noise[1].data);
+
+  fs::remove(folder / "x.sconce" / "raw" / package.manifest().raw[0].file);
+  EXPECT_THROW(Package::open(folder / "x.sconce"), Error);
+}
+
 TEST(Package, HalfLayersAreWithinHalfAStep) {
   const TemporaryFolder folder;
   PackageContents c = test_package(1, 1, 16, 16);

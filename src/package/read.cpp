@@ -27,7 +27,9 @@ struct Listed {
 std::vector<Listed> listed_files(const fs::path& folder, const Manifest& m) {
   std::vector<Listed> files;
   for (const LayerInfo& layer : m.layers)
-    files.push_back({folder / "layers" / layer.file, layer.hash, layer.bytes});
+    files.push_back({folder / kLayerFolder / layer.file, layer.hash, layer.bytes});
+  for (const LayerInfo& layer : m.raw)
+    files.push_back({folder / kRawFolder / layer.file, layer.hash, layer.bytes});
   for (const auto& [name, hash] : m.hashes) files.push_back({folder / name, hash, std::nullopt});
   return files;
 }
@@ -46,11 +48,13 @@ void check_listed(const Manifest& m, const std::string& where) {
   for (int page = 0; page < m.pages; ++page) needed.push_back(page_file("receivers", page));
   for (const std::string& name : needed)
     if (m.hashes.count(name) == 0) throw Error(where, "files." + name + " is missing");
-  for (const LayerInfo& layer : m.layers) {
-    const auto known = encodings();
-    if (std::none_of(known.begin(), known.end(), [&](const Encoding& e) { return e.name == layer.encoding; }))
-      throw Error(where, "layer " + layer.file + " has the unknown encoding '" + layer.encoding + "'");
-  }
+  for (const auto* layers : {&m.layers, &m.raw})
+    for (const LayerInfo& layer : *layers) {
+      const auto known = encodings();
+      if (std::none_of(known.begin(), known.end(),
+                       [&](const Encoding& e) { return e.name == layer.encoding; }))
+        throw Error(where, "layer " + layer.file + " has the unknown encoding '" + layer.encoding + "'");
+    }
 }
 
 // The named channels, in this order.
@@ -124,10 +128,18 @@ Package Package::open(const fs::path& path, bool check_hashes) {
   return package;
 }
 
+Package Package::undenoised() const {
+  if (manifest_.raw.empty())
+    throw Error(path_.string(), "holds no raw layers: it was baked without the denoiser");
+  Package package = *this;
+  package.raw_ = true;
+  return package;
+}
+
 Image Package::layer(std::size_t group, int page) const {
-  for (const LayerInfo& layer : manifest_.layers) {
+  for (const LayerInfo& layer : raw_ ? manifest_.raw : manifest_.layers) {
     if (layer.group != group || layer.page != page) continue;
-    const fs::path file = path_ / "layers" / layer.file;
+    const fs::path file = path_ / (raw_ ? kRawFolder : kLayerFolder) / layer.file;
     const std::string name = layer_names(manifest_.groups)[group];
     Image image = pick(read_exr(file), {name + ".R", name + ".G", name + ".B"}, manifest_, file);
     const auto unit = image.text.find("sconce:unit");
@@ -145,7 +157,7 @@ Image Package::receivers(int page) const {
 }
 
 Image Package::noise(int page) const {
-  const fs::path file = path_ / page_file("noise", page);
+  const fs::path file = path_ / page_file(raw_ ? "raw-noise" : "noise", page);
   return pick(read_exr(file), layer_names(manifest_.groups), manifest_, file);
 }
 

@@ -46,6 +46,13 @@ void check(const PackageContents& c) {
     for (const Image& image : c.layers[g]) check_page(image, m, 3, "a layer's");
   }
   for (const Image& image : c.receivers) check_page(image, m, 4, "the receivers'");
+  if (!c.raw.empty() && (c.raw.size() != m.groups.size() || c.raw_noise.size() != pages))
+    throw Error({}, "the package's raw layers do not match its groups and pages");
+  for (const std::vector<Image>& group : c.raw) {
+    if (group.size() != pages) throw Error({}, "a light group's raw layer misses a page");
+    for (const Image& image : group) check_page(image, m, 3, "a raw layer's");
+  }
+  for (const Image& image : c.raw_noise) check_page(image, m, m.groups.size(), "the raw noise");
   for (const Image& image : c.noise) check_page(image, m, m.groups.size(), "the noise");
   if (m.instance_pages.size() != c.scene.instances.size() ||
       m.instance_twins.size() != c.scene.instances.size())
@@ -99,7 +106,8 @@ class Writer {
  public:
   explicit Writer(PackageContents& contents) : c_(contents), m_(contents.manifest) {
     names_ = layer_names(m_.groups);
-    add_layers();
+    add_layers(c_.layers, kLayerFolder, m_.layers);
+    add_layers(c_.raw, kRawFolder, m_.raw);
     add_pages();
     add_sky();
     jobs_.push_back(
@@ -110,40 +118,42 @@ class Writer {
 
   void run(const fs::path& folder) {
     fs::create_directory(folder);
-    fs::create_directory(folder / "layers");
+    fs::create_directory(folder / kLayerFolder);
+    if (!c_.raw.empty()) fs::create_directory(folder / kRawFolder);
     parallel_for(jobs_.size(), 1, [&](std::size_t i) {
       Job& job = jobs_[i];
       job.write(folder / job.file);
       job.hash = hash_file(folder / job.file);
       job.bytes = fs::file_size(folder / job.file);
     });
-    for (std::size_t i = 0; i < m_.layers.size(); ++i) {
-      m_.layers[i].hash = jobs_[i].hash;
-      m_.layers[i].bytes = jobs_[i].bytes;
-    }
+    std::size_t next = 0;
+    for (auto* layers : {&m_.layers, &m_.raw})
+      for (LayerInfo& layer : *layers) {
+        layer.hash = jobs_[next].hash;
+        layer.bytes = jobs_[next++].bytes;
+      }
     m_.hashes.clear();
-    for (std::size_t i = m_.layers.size(); i < jobs_.size(); ++i)
-      m_.hashes[jobs_[i].file.string()] = jobs_[i].hash;
+    for (; next < jobs_.size(); ++next) m_.hashes[jobs_[next].file.string()] = jobs_[next].hash;
     write_file(folder / kManifestFile, print_manifest(m_));
   }
 
  private:
-  void add_layers() {
-    m_.layers.clear();
-    for (std::size_t g = 0; g < m_.groups.size(); ++g) {
-      if (g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g])) continue;
-      const std::string encoding = fitting_encoding(c_.encodings[g], c_.layers[g]);
+  void add_layers(std::vector<std::vector<Image>>& layers, std::string_view folder,
+                  std::vector<LayerInfo>& listed) {
+    listed.clear();
+    for (std::size_t g = 0; g < layers.size(); ++g) {
+      if (&layers == &c_.layers && g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g])) continue;
+      const std::string encoding = fitting_encoding(c_.encodings[g], layers[g]);
       const PixelType type = find_encoding(encoding).exr_type;
       for (int page = 0; page < m_.pages; ++page) {
-        Image& image = c_.layers[g][static_cast<std::size_t>(page)];
+        Image& image = layers[g][static_cast<std::size_t>(page)];
         image.channels = {names_[g] + ".R", names_[g] + ".G", names_[g] + ".B"};
         image.text["sconce:unit"] = "lux";
         image.text["sconce:group"] = m_.groups[g].name;
         const std::string file = page_file(safe_file_name(m_.groups[g].name), page);
-        m_.layers.push_back({static_cast<uint32_t>(g), page, encoding, file, {}, 0});
-        jobs_.push_back({fs::path("layers") / file,
-                         [&image, type](const fs::path& f) { write_exr(f, image, type); },
-                         {}});
+        listed.push_back({static_cast<uint32_t>(g), page, encoding, file, {}, 0});
+        jobs_.push_back(
+            {fs::path(folder) / file, [&image, type](const fs::path& f) { write_exr(f, image, type); }, {}});
       }
     }
   }
@@ -180,11 +190,14 @@ class Writer {
       jobs_.push_back({page_file("receivers", page),
                        [this, i](const fs::path& f) { write_exr(f, c_.receivers[i], PixelType::full); },
                        {}});
-      if (c_.noise.empty() || m_.groups.empty()) continue;
-      c_.noise[i].channels = names_;
-      jobs_.push_back({page_file("noise", page),
-                       [this, i](const fs::path& f) { write_exr(f, c_.noise[i], PixelType::half); },
-                       {}});
+      for (auto& [images, stem] : {std::pair(&c_.noise, "noise"), {&c_.raw_noise, "raw-noise"}}) {
+        if (images->empty() || m_.groups.empty()) continue;
+        Image& image = (*images)[i];
+        image.channels = names_;
+        jobs_.push_back({page_file(stem, page),
+                         [&image](const fs::path& f) { write_exr(f, image, PixelType::half); },
+                         {}});
+      }
     }
   }
 

@@ -49,9 +49,22 @@ std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const 
   return missing;
 }
 
-Layer assemble_layer(std::span<BakeState> states, const BakeParams& params, uint32_t group,
-                     const Atlas& atlas, const TexelReceivers& receivers, std::span<const float> areas) {
+std::vector<GroupValue> collect_values(std::span<BakeState> states, const BakeParams& params,
+                                       uint32_t group) {
   const std::string with = made_with(params);
+  std::vector<GroupValue> all;
+  for (std::size_t tile = 0; tile < states.front().tiles(); ++tile) {
+    const BakeState* source = nullptr;
+    for (const BakeState& state : states)
+      if (state.has(tile) && state.made_with(tile) == with) source = &state;
+    const std::vector<GroupValue> values = source->read(tile, group);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, const TexelReceivers& receivers,
+                     std::span<const float> areas) {
   Layer layer;
   const std::size_t page_texels =
       static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
@@ -62,26 +75,18 @@ Layer assemble_layer(std::span<BakeState> states, const BakeParams& params, uint
     layer.noise.push_back(Image(atlas.width, atlas.height, {"noise"}));
   }
   double area_sum = 0, lux_sum = 0, squares = 0;
-  for (std::size_t tile = 0; tile < receivers.tiles(); ++tile) {
-    const BakeState* source = nullptr;
-    for (const BakeState& state : states)
-      if (state.has(tile) && state.made_with(tile) == with) source = &state;
-    const std::vector<GroupValue> values = source->read(tile, group);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t receiver = tile * TexelReceivers::kTile + i;
-      const std::size_t page = receivers.texel(receiver) / page_texels,
-                        at = receivers.texel(receiver) % page_texels;
-      const Rgb& e = values[i].illuminance;
-      float* pixel = &layer.pages[page].data[3 * at];
-      pixel[0] = e.r, pixel[1] = e.g, pixel[2] = e.b;
-      valid[page][at] = 1;
-      const float lux = luminance(e);
-      layer.noise[page].data[at] = lux > 0 ? values[i].error / lux : 0;
-      const double area = static_cast<double>(areas[receiver]);
-      area_sum += area;
-      lux_sum += area * static_cast<double>(lux);
-      squares += area * static_cast<double>(values[i].error) * static_cast<double>(values[i].error);
-    }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t page = receivers.texel(i) / page_texels, at = receivers.texel(i) % page_texels;
+    const Rgb& e = values[i].illuminance;
+    float* pixel = &layer.pages[page].data[3 * at];
+    pixel[0] = e.r, pixel[1] = e.g, pixel[2] = e.b;
+    valid[page][at] = 1;
+    const float lux = luminance(e);
+    layer.noise[page].data[at] = lux > 0 ? values[i].error / lux : 0;
+    const double area = static_cast<double>(areas[i]), error = static_cast<double>(values[i].error);
+    area_sum += area;
+    lux_sum += area * static_cast<double>(lux);
+    squares += area * error * error;
   }
   layer.mean_lux = area_sum > 0 ? lux_sum / area_sum : 0;
   layer.relative_noise = layer.mean_lux > 0 ? std::sqrt(squares / area_sum) / layer.mean_lux : 0;

@@ -28,11 +28,15 @@ struct Layer {
   double mean_lux = 0;        ///< area-weighted
   double relative_noise = 0;  ///< area-weighted rms of (error / mean of the layer)
 };
+/// @param values  per receiver
+/// @param areas   per receiver, m2
+Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, const TexelReceivers& receivers,
+                     std::span<const float> areas);
+
+/// One group's values of all receivers.
 /// @param states  their union must hold every tile, made with these params
 /// @param group   its place in the states
-/// @param areas   per receiver, m2
-Layer assemble_layer(std::span<BakeState> states, const BakeParams& params, uint32_t group,
-                     const Atlas& atlas, const TexelReceivers& receivers, std::span<const float> areas);
+std::vector<GroupValue> collect_values(std::span<BakeState> states, const BakeParams& params, uint32_t group);
 
 /// Tiles of the shard that none of the states holds with these params, ascending.
 std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const BakeParams& params,

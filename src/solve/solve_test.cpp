@@ -38,7 +38,8 @@ struct Rig {
 class EverySolver : public testing::TestWithParam<const SolverRow*> {};
 INSTANTIATE_TEST_SUITE_P(Rows, EverySolver, testing::ValuesIn([] {
                            std::vector<const SolverRow*> rows;
-                           for (const SolverRow& row : solvers()) rows.push_back(&row);
+                           for (const SolverRow& row : solvers())
+                             if (!row.runs_program) rows.push_back(&row);
                            return rows;
                          }()),
                          [](const auto& row) { return std::string(row.param->name); });

@@ -2,8 +2,10 @@
 // How much light arrives at receivers. Adding a solver is one file and one row of table.cpp.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/progress.h"
@@ -22,7 +24,9 @@ struct BakeParams {
   int cloud = 0;            ///< radiosity solver: gather samples; 0 = chosen by it
   double noise = 0;         ///< stop a receiver early when its relative standard error falls below; 0 = never
   std::size_t photons = 0;  ///< photon solver: emitted by all lamps together; 0 = by the number of texels
-  bool final_gather = true;  ///< photon solver: rays read the map; false = the receiver itself does
+  bool final_gather = true;           ///< photon solver: rays read the map; false = the receiver itself does
+  std::string command;                ///< of a row with `runs_program`: what it runs
+  std::filesystem::path work_folder;  ///< and where its files go
 };
 
 /// Independently scrambled batches of samples: their spread is the noise.
@@ -66,11 +70,16 @@ struct SolverRow {
   std::string_view name, doc;
   std::unique_ptr<Solver> (*prepare)(const SolveContext& context, const BakeParams& params,
                                      const Progress& progress);
+  /// Asked for as NAME:CMD; works on texels of an atlas only, whole pages at once.
+  bool runs_program = false;
 };
 
-/// radiosity, path, photon; in this order.
+/// radiosity, path, photon, external; in this order.
 std::span<const SolverRow> solvers();
+/// @param name  of a row; NAME:CMD where it runs a program
 /// @throws UsageError naming the choices
 const SolverRow& find_solver(std::string_view name);
+/// CMD of NAME:CMD, else empty.
+std::string solver_command(std::string_view name);
 
 }  // namespace sconce
