@@ -67,13 +67,14 @@ struct Bench {
     Values values;
     {
       BakeState state = kept ? BakeState::open(path) : BakeState::create(path, header);
-      if (!missing_tiles(std::span(&state, 1), params).empty()) {
+      if (const auto tiles = missing_tiles(std::span(&state, 1), params); !tiles.empty()) {
+        const std::vector<uint8_t> wanted(scene.groups.size(), 1);
         const SolveContext context{scene, world, tracer, lamps, &atlas, &receivers};
         const auto solver = find_solver(solver_name).prepare(context, params, {});
-        bake_tiles(*solver, params, receivers, {}, state, {});
+        bake_tiles(*solver, params, receivers, wanted, tiles, state, {});
       }
       for (uint32_t g = 0; g < scene.groups.size(); ++g)
-        values.push_back(collect_values(std::span(&state, 1), g));
+        values.push_back(collect_values(std::span(&state, 1), params, g));
     }
     if (std::getenv("CACHE") == nullptr) std::filesystem::remove(path);
     return values;

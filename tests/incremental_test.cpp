@@ -175,6 +175,25 @@ TEST_F(Incremental, DryRunSaysWhatWouldBeSolved) {
   EXPECT_EQ(layers(), before);
 }
 
+TEST_F(Incremental, DenoisingSolvesNothingAndKeepsTheRawLayers) {
+  bake();
+  const auto solved = layers();
+  EXPECT_EQ(bake({"--denoise", "on"}), Names{});
+  EXPECT_TRUE(layers() != solved);
+  const auto kept = [&](const std::string& file) {
+    return read_file(package / "raw" / file) == solved.at(file);
+  };
+  for (const auto& [file, bytes] : solved) EXPECT_TRUE(kept(file)) << file;
+  scene.lights[0].intensity *= 2.0f;
+  EXPECT_EQ(bake({"--denoise", "on"}), Names{"bulb"});
+  EXPECT_TRUE(kept("left.0.exr"));
+  EXPECT_FALSE(kept("bulb.0.exr"));
+  scene.lights[0].intensity *= 0.5f;
+  EXPECT_EQ(bake({"--denoise", "on"}), Names{"bulb"});
+  EXPECT_EQ(bake(), Names{});
+  EXPECT_TRUE(layers() == solved);
+}
+
 TEST_F(Incremental, KilledLeavesTheOldPackageAndResumes) {
   const Names fine{"--samples", "256", "--solver", "path"};
   bake(fine);

@@ -33,7 +33,8 @@ struct PreparedBake {
   BakeJob job;
   Scene scene;
   World world;
-  std::vector<std::string> inputs;  ///< per group: solve/inputs.h
+  std::vector<std::string> inputs;     ///< per group: solve/inputs.h
+  std::vector<std::string> encodings;  ///< per group
   BakePlan plan;
   Tracer tracer;
   Lamps lamps;

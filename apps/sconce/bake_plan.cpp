@@ -15,13 +15,14 @@ bool can_give(const Manifest& manifest) {
   const auto& files = manifest.hashes;
   if (files.count(std::string(kLayoutFile)) == 0) return false;
   for (int page = 0; page < manifest.pages; ++page)
-    if (files.count(page_file("noise", page)) == 0) return false;
+    if (files.count(page_file(manifest.raw.empty() ? "noise" : "raw-noise", page)) == 0) return false;
   return true;
 }
 
 /// Full floats give any encoding as if freshly solved; others only their own.
-bool fine_enough(const Manifest& manifest, std::size_t group, const std::string& encoding) {
-  return std::all_of(manifest.layers.begin(), manifest.layers.end(), [&](const LayerInfo& layer) {
+bool fine_enough(const Package& package, std::size_t group, const std::string& encoding) {
+  const std::vector<LayerInfo>& files = package.layer_files();
+  return std::all_of(files.begin(), files.end(), [&](const LayerInfo& layer) {
     return layer.group != group || layer.encoding == encoding || layer.encoding == "f32";
   });
 }
@@ -29,19 +30,19 @@ bool fine_enough(const Manifest& manifest, std::size_t group, const std::string&
 }  // namespace
 
 BakePlan::BakePlan(const std::vector<std::string>& inputs, const std::vector<std::string>& encodings,
-                   const std::filesystem::path& package, bool denoised)
+                   const std::filesystem::path& package)
     : kept_(inputs.size()) {
   if (package.empty()) return;
   try {
-    before_ = Package::open(package);
+    before_ = Package::open(package).solved();
   } catch (const Error&) {
     return;  // none, or one to replace
   }
   const Manifest& manifest = before_->manifest();
-  if (denoised || !can_give(manifest)) return;
+  if (!can_give(manifest)) return;
   for (std::size_t g = 0; g < inputs.size(); ++g)
     for (std::size_t old = 0; old < manifest.groups.size() && !kept_[g]; ++old)
-      if (manifest.groups[old].inputs == inputs[g] && fine_enough(manifest, old, encodings[g]))
+      if (manifest.groups[old].inputs == inputs[g] && fine_enough(*before_, old, encodings[g]))
         kept_[g] = old;
 }
 

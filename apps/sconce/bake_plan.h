@@ -18,11 +18,10 @@ class BakePlan {
   /// @param inputs     hash per group
   /// @param encodings  per group: a layer that was kept coarser than that is solved again
   /// @param package    may be empty, missing or damaged: then nothing is kept
-  /// @param denoised   layers depend on all groups, through the filter: nothing is kept
   BakePlan(const std::vector<std::string>& inputs, const std::vector<std::string>& encodings,
-           const std::filesystem::path& package, bool denoised);
+           const std::filesystem::path& package);
 
-  /// The package that layers are kept from; null where none stands.
+  /// The package that layers are kept from, as it was before the denoiser; null where none stands.
   const Package* before() const { return before_ ? &*before_ : nullptr; }
   /// Its group that group g is kept from.
   std::optional<std::size_t> kept(std::size_t g) const { return kept_[g]; }

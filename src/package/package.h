@@ -78,15 +78,15 @@ struct PackageContents {
   Manifest manifest;  ///< layers, raw, hashes are filled in by the writer
   Scene scene;        ///< BakedScene::scene
   std::vector<std::vector<Image>> layers;
-  /// Per group: taken over instead of layers[group]; empty = none. Files are linked where name and encoding
-  /// stay.
+  /// Per group: the solver's own layer (raw where there is raw, else layers) is that of a package that
+  /// stands; empty = none. Files are linked where name and encoding stay.
   std::vector<std::optional<KeptLayer>> kept;
   std::vector<std::string> encodings;  ///< per group
   std::vector<Image> receivers;  ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
   std::vector<Image> noise;      ///< per page: one channel per group, relative standard error
-  std::string layout;            ///< receive/layout.h; may be empty
   std::vector<std::vector<Image>> raw;  ///< before the denoiser, as `layers`; empty = there was none
   std::vector<Image> raw_noise;         ///< of `raw`, as `noise`
+  std::string layout;                   ///< receive/layout.h; may be empty
 };
 
 /// Writes beside and renames. @throws Error (unwritable, disk full); nothing half-written stays
@@ -102,6 +102,11 @@ class Package {
   /// The same package as it was before the denoiser: layer() and noise() are the solver's own.
   /// @throws Error when it was not denoised
   Package undenoised() const;
+  /// The same, or this very one when it was not denoised.
+  Package solved() const { return manifest_.raw.empty() ? *this : undenoised(); }
+  /// Files of the layers that layer() reads, and their folder.
+  const std::vector<LayerInfo>& layer_files() const { return raw_ ? manifest_.raw : manifest_.layers; }
+  std::filesystem::path layer_folder() const;
 
   const Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& path() const { return path_; }

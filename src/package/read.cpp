@@ -136,10 +136,14 @@ Package Package::undenoised() const {
   return package;
 }
 
+std::filesystem::path Package::layer_folder() const {
+  return path_ / (raw_ ? kRawFolder : kLayerFolder);
+}
+
 Image Package::layer(std::size_t group, int page) const {
-  for (const LayerInfo& layer : raw_ ? manifest_.raw : manifest_.layers) {
+  for (const LayerInfo& layer : layer_files()) {
     if (layer.group != group || layer.page != page) continue;
-    const fs::path file = path_ / (raw_ ? kRawFolder : kLayerFolder) / layer.file;
+    const fs::path file = layer_folder() / layer.file;
     const std::string name = layer_names(manifest_.groups)[group];
     Image image = pick(read_exr(file), {name + ".R", name + ".G", name + ".B"}, manifest_, file);
     const auto unit = image.text.find("sconce:unit");

@@ -41,7 +41,6 @@ void check(const PackageContents& c) {
       c.receivers.size() != pages || (!c.noise.empty() && c.noise.size() != pages))
     throw Error({}, "the package's images do not match its groups and pages");
   for (std::size_t g = 0; g < c.layers.size(); ++g) {
-    if (g < c.kept.size() && c.kept[g]) continue;
     if (c.layers[g].size() != pages) throw Error({}, "a light group's layer misses a page");
     for (const Image& image : c.layers[g]) check_page(image, m, 3, "a layer's");
   }
@@ -141,8 +140,9 @@ class Writer {
   void add_layers(std::vector<std::vector<Image>>& layers, std::string_view folder,
                   std::vector<LayerInfo>& listed) {
     listed.clear();
+    const bool own = &layers == (c_.raw.empty() ? &c_.layers : &c_.raw);
     for (std::size_t g = 0; g < layers.size(); ++g) {
-      if (&layers == &c_.layers && g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g])) continue;
+      if (own && g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g], folder, listed)) continue;
       const std::string encoding = fitting_encoding(c_.encodings[g], layers[g]);
       const PixelType type = find_encoding(encoding).exr_type;
       for (int page = 0; page < m_.pages; ++page) {
@@ -158,27 +158,25 @@ class Writer {
     }
   }
 
-  /// The files of a kept layer as they are, or false and its images where they must be written anew.
-  bool keep_files(std::size_t g, const KeptLayer& kept) {
-    const Manifest& old = kept.from->manifest();
+  /// The files of a kept layer as they are; false where they must be written anew.
+  bool keep_files(std::size_t g, const KeptLayer& kept, std::string_view folder,
+                  std::vector<LayerInfo>& listed) {
+    const Package from = kept.from->solved();
+    const std::vector<GroupInfo>& groups = from.manifest().groups;
     std::vector<LayerInfo> files;
-    for (const LayerInfo& layer : old.layers)
+    for (const LayerInfo& layer : from.layer_files())
       if (layer.group == kept.group) files.push_back(layer);
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.page < b.page; });
     // The name is in the files, too.
-    const bool same = old.groups[kept.group].name == m_.groups[g].name &&
-                      layer_names(old.groups)[kept.group] == names_[g] &&
-                      files.front().encoding == c_.encodings[g];
-    if (!same) {
-      for (const LayerInfo& layer : files) c_.layers[g].push_back(kept.from->layer(kept.group, layer.page));
+    if (groups[kept.group].name != m_.groups[g].name || layer_names(groups)[kept.group] != names_[g] ||
+        files.front().encoding != c_.encodings[g])
       return false;
-    }
     for (LayerInfo& layer : files) {
-      const fs::path from = kept.from->path() / "layers" / layer.file;
+      const fs::path old = from.layer_folder() / layer.file;
       jobs_.push_back(
-          {fs::path("layers") / layer.file, [from](const fs::path& f) { link_or_copy(from, f); }, {}});
+          {fs::path(folder) / layer.file, [old](const fs::path& f) { link_or_copy(old, f); }, {}});
       layer.group = static_cast<uint32_t>(g);
-      m_.layers.push_back(std::move(layer));
+      listed.push_back(std::move(layer));
     }
     return true;
   }

@@ -49,7 +49,7 @@ std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const 
   return missing;
 }
 
-std::vector<GroupValue> collect_values(std::span<BakeState> states, const BakeParams& params,
+std::vector<GroupValue> collect_values(std::span<const BakeState> states, const BakeParams& params,
                                        uint32_t group) {
   const std::string with = made_with(params);
   std::vector<GroupValue> all;

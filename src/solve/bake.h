@@ -36,7 +36,8 @@ Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, con
 /// One group's values of all receivers.
 /// @param states  their union must hold every tile, made with these params
 /// @param group   its place in the states
-std::vector<GroupValue> collect_values(std::span<BakeState> states, const BakeParams& params, uint32_t group);
+std::vector<GroupValue> collect_values(std::span<const BakeState> states, const BakeParams& params,
+                                       uint32_t group);
 
 /// Tiles of the shard that none of the states holds with these params, ascending.
 std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const BakeParams& params,
