@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "ranks.h"
+#include "solve/timing.h"
 
 namespace fs = std::filesystem;
 
@@ -47,6 +48,7 @@ struct Given {
   double density = 0, noise = 0, photons = 0;
   bool direct_estimate = false;
   std::string denoise = "off";
+  double time = 0;
 };
 
 /// What this verb's options say, checked.
@@ -84,17 +86,41 @@ void check_agreement(const PreparedBake& bake, const RankSession& session) {
                   "sees another scene or package or has another instruction set", "what rank 0 has");
 }
 
+/// Samples that fit the time; leaves the solver with them. All ranks together.
+int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const Ranks& ranks) {
+  if (!solver.set_samples(kBatches))
+    throw UsageError("--time", "means nothing to the solver " + bake.job.solver, "radiosity, path, photon");
+  const auto now = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  int samples = samples_within(std::max(0.0, seconds) * ranks.count, solver, bake.receivers,
+                               bake.scene.groups.size(), now);
+  if (ranks.count > 1)
+    for (const std::string& other : ranks.allgather(std::to_string(samples)))
+      samples = std::min(samples, std::stoi(other));
+  solver.set_samples(samples);
+  return samples;
+}
+
 int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   std::optional<PreparedBake> prepared;
+  double time = request.given.time;
   session.together([&] {
     check_writable(request.output);
-    // Shards are parts of a whole bake: what stands on one machine may stand on no other.
-    const bool anew = request.force || request.shard;
-    prepared.emplace(request.job, progress, anew ? fs::path() : request.output);
+    BakeJob job = request.job;
+    if (time > 0 && request.resume && fs::exists(state_path(request))) {
+      const BakeHeader begun = BakeState::open(state_path(request)).header();
+      job.params.samples = BakeJob::from_json(begun.job, state_path(request).string()).params.samples;
+      time = 0;
+    }
+    // Shards are parts of a whole bake: what stands on one machine may stand on no other. How many samples
+    // fit a time is not known before they are to be taken.
+    const bool anew = request.force || request.shard || time > 0;
+    prepared.emplace(job, progress, anew ? fs::path() : request.output);
   });
   const PreparedBake& bake = *prepared;
   if (request.dry_run) {
@@ -109,10 +135,12 @@ int execute(const Request& request, const Options& options, RankSession& session
   }
   std::vector<BakeState> states;
   if (bake.plan.count(true) > 0) {
+    const auto solver = make_solver(bake, state_path(request), ranks, progress);
+    if (time > 0) prepared->set_samples(samples_in(time - seconds(), *solver, bake, ranks));
     Checkpoint checkpoint(state_path(request), bake.header(), request.resume, session, progress);
     const std::vector<std::size_t> tiles =
         checkpoint.todo(bake.job.params, request.shard.value_or(Shard{}), ranks);
-    run_bake(bake, tiles, checkpoint.own(), ranks, progress);
+    run_bake(bake, *solver, tiles, checkpoint.own(), progress);
     states = checkpoint.finish(session);
   }
   if (request.shard) {
@@ -136,7 +164,7 @@ int execute(const Request& request, const Options& options, RankSession& session
 /// @return exit code when nothing is left to do
 std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
   auto& [scene, output, shard, quality, samples, bounces, seed, page, density, noise, photons,
-         direct_estimate, denoise] = request.given;
+         direct_estimate, denoise, time] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
@@ -149,6 +177,7 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   options.option("--quality", &quality, "draft, normal or final: 32, 128 or 1024 samples");
   options.option("--samples", &samples, "paths per texel, instead of --quality");
   options.option("--noise", &noise, "stop a texel early at this relative standard error, e.g. 2%");
+  options.duration("--time", &time, "as many samples as fit this time, e.g. 5m, instead of --samples");
   options.option("--bounces", &bounces, "reflections; 0 = direct light only, -1 = unbounded");
   options.option("--cloud", &job.params.cloud,
                  "radiosity solver: gather samples (default: one for four texels, 4096 to 65536)");
@@ -178,6 +207,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   if (bounces < -1) throw UsageError("--bounces", fmt::format("{} is out of range", bounces), "-1 or more");
   if (noise < 0 || noise >= 1)
     throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
+  if (time < 0 || (time > 0 && (samples > 0 || noise > 0 || !shard.empty())))
+    throw UsageError("--time", "cannot stand beside --samples, --noise or --shard");
   if (photons < 0 || photons > 1e9)
     throw UsageError("--photons", fmt::format("{} is out of range", photons), "1 to 1000000000");
   if (job.params.cloud < 0 || job.params.cloud > 1 << 24)

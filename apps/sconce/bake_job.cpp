@@ -73,6 +73,10 @@ std::vector<std::string> group_encodings(const std::string& text, const Scene& s
   return result;
 }
 
+std::vector<std::string> hash_inputs(const BakeJob& job, const Scene& scene, const World& world) {
+  return layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa());
+}
+
 /// The texels of what is kept, or new ones.
 Atlas make_layout(const PreparedBake& bake, const Progress& progress) {
   if (bake.plan.count(false) == 0)
@@ -122,9 +126,10 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
     : job(job_),
       scene(load(job, progress)),
       world(make_world(scene)),
-      inputs(layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa())),
+      inputs(hash_inputs(job, scene, world)),
       encodings(group_encodings(job.encoding, scene)),
       plan(inputs, encodings, before),
+      wanted(plan.wanted()),
       tracer(scene, world),
       lamps(scene, world),
       atlas(make_layout(*this, progress)),
@@ -134,10 +139,15 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
   for (const std::string& warning : atlas.report.warnings) progress.warn(warning);
 }
 
+void PreparedBake::set_samples(int samples) {
+  job.params.samples = samples;
+  inputs = hash_inputs(job, scene, world);
+}
+
 BakeHeader PreparedBake::header() const {
   // Records of some groups only, on texels laid out for an earlier bake, are no part of a whole bake.
   ContentHash partial;
-  partial.text(hash).span(std::span<const uint8_t>(plan.wanted())).text(hash_hex(pack_layout(atlas)));
+  partial.text(hash).span(std::span<const uint8_t>(wanted)).text(hash_hex(pack_layout(atlas)));
   const std::size_t groups = plan.count(true);
   return {groups == scene.groups.size() ? hash : partial.hex(),
           isa(),
@@ -158,21 +168,26 @@ std::string PreparedBake::result_hash() const {
   return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).value(job.denoise).hex();
 }
 
-void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, BakeState& state,
-              const Ranks& ranks, const Progress& progress) {
-  const std::vector<uint8_t> wanted = bake.plan.wanted();
+std::unique_ptr<Solver> make_solver(const PreparedBake& bake, const std::filesystem::path& state,
+                                    const Ranks& ranks, const Progress& progress) {
+  // The solver keeps a view of what is wanted.
   const SolveContext context{bake.scene,  bake.world,      bake.tracer, bake.lamps,
-                             &bake.atlas, &bake.receivers, wanted,      ranks};
+                             &bake.atlas, &bake.receivers, bake.wanted, ranks};
   BakeParams params = bake.job.params;
   params.command = solver_command(bake.job.solver);
-  params.work_folder = state.path();
+  params.work_folder = state;
   params.work_folder.replace_extension(".external");
-  const auto solver = find_solver(bake.job.solver).prepare(context, params, progress);
-  bake_tiles(*solver, bake.job.params, bake.receivers, wanted, tiles, state, progress);
+  return find_solver(bake.job.solver).prepare(context, params, progress);
+}
+
+void run_bake(const PreparedBake& bake, const Solver& solver, std::span<const std::size_t> tiles,
+              BakeState& state, const Progress& progress) {
+  bake_tiles(solver, bake.job.params, bake.receivers, bake.wanted, tiles, state, progress);
 }
 
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress) {
-  run_bake(bake, missing_tiles(std::span(&state, 1), bake.job.params, shard), state, {}, progress);
+  const auto solver = make_solver(bake, state.path(), {}, progress);
+  run_bake(bake, *solver, missing_tiles(std::span(&state, 1), bake.job.params, shard), state, progress);
 }
 
 }  // namespace sconce::app

@@ -36,6 +36,7 @@ struct PreparedBake {
   std::vector<std::string> inputs;     ///< per group: solve/inputs.h
   std::vector<std::string> encodings;  ///< per group
   BakePlan plan;
+  std::vector<uint8_t> wanted;  ///< per group: 1 = to be solved
   Tracer tracer;
   Lamps lamps;
   Atlas atlas;
@@ -48,6 +49,9 @@ struct PreparedBake {
   PreparedBake(const PreparedBake&) = delete;
   PreparedBake& operator=(const PreparedBake&) = delete;
 
+  /// Before anything is baked, and only where nothing is kept.
+  void set_samples(int samples);
+
   BakeHeader header() const;
   /// Hash of the records and of how they are sampled and encoded.
   std::string result_hash() const;
@@ -55,10 +59,14 @@ struct PreparedBake {
   bool up_to_date() const;
 };
 
+/// The job's solver, made ready for the groups that are not kept. All ranks together.
+/// @param state  its path; programs of others work beside it
+std::unique_ptr<Solver> make_solver(const PreparedBake& bake, const std::filesystem::path& state,
+                                    const Ranks& ranks, const Progress& progress);
 /// Bakes these tiles, for the groups that are not kept.
-void run_bake(const PreparedBake& bake, std::span<const std::size_t> tiles, BakeState& state,
-              const Ranks& ranks, const Progress& progress);
-/// Bakes the tiles of the shard that `state` lacks.
+void run_bake(const PreparedBake& bake, const Solver& solver, std::span<const std::size_t> tiles,
+              BakeState& state, const Progress& progress);
+/// Both, for the tiles of the shard that `state` lacks.
 void run_bake(const PreparedBake& bake, Shard shard, BakeState& state, const Progress& progress);
 
 /// Denoises if asked to, fills gaps, takes over what is kept and writes the package. @throws Error: tiles
