@@ -11,7 +11,7 @@ namespace {
 
 TEST(Time, BecomesSamples) {
   test::TempFolder folder;
-  const std::string scene = folder.write("room.glb", write_glb(test::two_lamp_room(), "test")).string();
+  const std::string scene = folder.write("room.glb", write_glb(test::two_lamp_room(), "test"));
   const auto bake = [&](const char* name, const std::string& option, const std::string& value) {
     const test::Outcome outcome = test::run_sconce(
         {"bake", scene, "--density", "8", "--solver", "path", option, value, "-o", (folder / name).string()});
