@@ -12,7 +12,7 @@ namespace sconce {
 namespace {
 
 constexpr uint32_t kDirectSamples = 4;     // per cell
-constexpr std::size_t kRowRays = 1 << 22;  // in all
+constexpr std::size_t kRowRays = 1 << 21;  // in all
 constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
 
 /// A sample for four texels, up to where more were not seen to help.
@@ -57,7 +57,7 @@ class RadiositySolver final : public Solver {
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
                                            context.receivers, cloud, progress, context.ranks);
     direct_ = direct_light(progress);
-    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 64, 256));
+    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 32, 256));
     DirectLight direct;
     direct.groups = context.scene.groups.size();
     direct.on_cells = direct_;
