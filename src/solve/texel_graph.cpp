@@ -11,7 +11,7 @@ namespace sconce {
 namespace {
 
 constexpr float kReach = 0.8f;  // longest link, in the sum of both spacings: diagonals are 0.71
-constexpr float kCoarser = 4;        // how much wider than another a texel may be to be linked to it
+constexpr float kCoarser = 4;   // how much wider than another a texel may be to be linked to it
 constexpr float kFlat = 0.01f;  // how far a link may leave the plane, as a sine, where faces are parallel
 constexpr float kLinkCosine = 0.8f;  // between the normals of linked texels
 constexpr float kWalkCosine = 0.9f;  // between the normals of a walk's start and end
