@@ -28,6 +28,7 @@ def parse():
     parser.add_argument("--reference", type=int, default=4096,
                         help="paths per texel in each of the two references (default: 4096)")
     parser.add_argument("--drop", type=float, default=0.001, help="share of texels, the worst, to leave out (default: 0.001)")
+    parser.add_argument("--denoise", action="store_true", help="sconce's layers are denoised, which counts as its time")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of both")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
                         help="cpu: of all threads, for a machine that has more to do")
@@ -90,7 +91,8 @@ class Bench:
         _, before = self.bake(case, "dry", self.options.solver, 1, more=["--dry-run"])
         points = []
         for samples in self.options.samples:
-            package, seconds = self.bake(case, f"sconce-{samples}", self.options.solver, samples)
+            package, seconds = self.bake(case, f"sconce-{samples}", self.options.solver, samples,
+                                         more=["--denoise", "on"] if self.options.denoise else [])
             errors, _ = self.errors(package, references)
             points.append((samples, seconds - before, {g: e for g, (e, _) in errors.items()}))
         return points
@@ -137,6 +139,17 @@ def fit_error(points):
     return math.sqrt(square), variance, whole
 
 
+def samples_for(points, target):
+    """Number of samples n at which a line through (log n, log error) of the two points about the target meets it. For denoised
+    layers, whose error does not fall with the root of n."""
+    points = sorted(points)
+    at = next((i for i in range(1, len(points)) if points[i][1] <= target), len(points) - 1)
+    (n0, e0), (n1, e1) = points[at - 1], points[at]
+    if e1 >= e0:
+        return n1 * max(1.0, (e1 / target) ** 2)
+    return n0 * math.exp(math.log(e0 / target) * math.log(n1 / n0) / math.log(e0 / e1))
+
+
 def compare(bench, case):
     scene, grouping, atlas = case
     references, seconds = [], 0
@@ -164,7 +177,10 @@ def compare(bench, case):
         details.append(f"| {group} | {100 * checks[group][1]:.2f} % | {shown[0]} % | {100 * floor:.2f} % | {shown[1]} % | "
                        f"{100 * their_floor:.2f} % | {setup:.2f} + {1000 * rate:.3g} |")
     for target in TARGETS:
-        needed = max(whole for (_, _, whole), _, _ in fits.values()) / target**2
+        if bench.options.denoise:
+            needed = max(samples_for([(n, e[group]) for n, _, e in ours], target) for group in fits)
+        else:
+            needed = max(whole for (_, _, whole), _, _ in fits.values()) / target**2
         mine = ready + per_sample * needed
         cycles = sum(setup + rate * variance / target**2 for _, (setup, rate), (_, variance, _) in fits.values())
         summary.append(f"| {name} | {100 * target:.0f} % | {cycles:.3g} s | {mine:.3g} s | {needed:.0f} | "
@@ -187,7 +203,7 @@ def main():
             rows += some
             details += ["", *more]
     version = subprocess.run(["blender", "--version"], stdout=subprocess.PIPE, text=True).stdout.split("\n")[0]
-    head = [f"# sconce (`--solver {options.solver}`) against {version}, Cycles on the CPU", "",
+    head = [f"# sconce (`--solver {options.solver}{' --denoise on' if options.denoise else ''}`) against {version}, Cycles on the CPU", "",
             f"{options.threads} thread(s) for both, {options.clock} time; `bench/cycles/README.md` says what is compared.", "",
             "| scene | error | Cycles, all groups | sconce | its samples | factor |", "|---|---|---|---|---|---|"]
     options.output.parent.mkdir(parents=True, exist_ok=True)
