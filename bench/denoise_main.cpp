@@ -11,8 +11,9 @@
 #include <cstdlib>
 
 #include "core/parallel.h"
+#include "gather/lit_scene.h"
 #include "import/import.h"
-#include "scene/groups.h"
+#include "setting.h"
 #include "solve/bake.h"
 #include "solve/denoise.h"
 
@@ -20,36 +21,15 @@ using namespace sconce;
 
 namespace {
 
-std::string setting(const char* name, const char* otherwise) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : otherwise;
-}
-
 using Values = std::vector<std::vector<GroupValue>>;  // per group and texel
 
-struct Bench {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
-  Atlas atlas;
-  TexelReceivers receivers;
+struct Bench : LitAtlas {
   std::vector<double> areas;
 
   Bench(Scene&& s, const char* page)
-      : scene(std::move(s)),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world),
-        atlas(make(scene, world, tracer, page)),
-        receivers(world, tracer, atlas) {
+      : LitAtlas(std::move(s), Grouping::automatic, std::stoi(setting("PAGE", page))) {
     for (std::size_t i = 0; i < receivers.size(); ++i)
       areas.push_back(static_cast<double>(receivers.footprint(i).area));
-  }
-  static Atlas make(const Scene& scene, const World& world, const Tracer& tracer, const char* page) {
-    AtlasParams params;
-    params.page_size = std::stoi(setting("PAGE", page));
-    return make_atlas(scene, world, tracer, params);
   }
 
   Values bake(const std::string& name, int samples, uint32_t seed) const {
@@ -113,7 +93,6 @@ Score score(const Bench& bench, const std::vector<GroupValue>& x, const std::vec
 
 void run(const std::string& path) {
   Scene scene = import_scene(path);
-  assign_groups(scene, Grouping::automatic);
   const std::string name = std::filesystem::path(path).stem().string();
   const Bench bench(std::move(scene), name == "luxcore-kitchen" ? "512" : "256");
   const std::size_t groups = bench.scene.groups.size();

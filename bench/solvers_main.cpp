@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "core/parallel.h"
+#include "gather/lit_scene.h"
 #include "import/import.h"
-#include "receive/atlas.h"
-#include "scene/groups.h"
+#include "setting.h"
 #include "solve/solver.h"
 
 using namespace sconce;
@@ -21,11 +21,6 @@ using namespace sconce;
 namespace {
 
 using Values = std::vector<std::vector<GroupValue>>;  // per texel, per group
-
-std::string setting(const char* name, const char* otherwise) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : otherwise;
-}
 
 template <class T>
 std::vector<T> list(const std::string& text) {
@@ -39,29 +34,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-struct Bench {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
-  Atlas atlas;
-  TexelReceivers receivers;
+struct Bench : LitAtlas {
   std::vector<std::size_t> texels;
 
-  Bench(Scene&& s, int page, std::size_t count)
-      : scene(std::move(s)),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world),
-        atlas(make(scene, world, tracer, page)),
-        receivers(world, tracer, atlas) {
+  Bench(Scene&& s, int page, std::size_t count) : LitAtlas(std::move(s), Grouping::automatic, page) {
     count = std::min(count, receivers.size());
     for (std::size_t i = 0; i < count; ++i) texels.push_back((2 * i + 1) * receivers.size() / (2 * count));
-  }
-  static Atlas make(const Scene& scene, const World& world, const Tracer& tracer, int page) {
-    AtlasParams params;
-    params.page_size = page;
-    return make_atlas(scene, world, tracer, params);
   }
 
   Values solve(const Solver& solver) const {
@@ -95,7 +73,6 @@ Error error_of(const Values& x, const Values& s0, const Values& s1, std::size_t 
 
 void run(const std::string& path) {
   Scene scene = import_scene(path);
-  assign_groups(scene, Grouping::automatic);
   const Bench bench(std::move(scene), std::stoi(setting("PAGE", "512")),
                     std::stoul(setting("TEXELS", "1024")));
   const SolveContext context{bench.scene, bench.world,  bench.tracer,

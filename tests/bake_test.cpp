@@ -12,6 +12,7 @@
 #include "bake_job.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "process.h"
 #include "small_scenes.h"
 
 namespace fs = std::filesystem;
@@ -79,21 +80,13 @@ TEST_F(Bake, ThreeShardsMergedAreTheWhole) {
 }
 
 TEST_F(Bake, KilledAnywhereAndResumedIsTheWhole) {
-  const std::vector<std::string> arguments{SCONCE_PROGRAM, "bake", scene.string(), "--density", "24",
-                                           "--samples",    "256",  "--quiet",      "--threads", "2"};
+  const std::vector<std::string> arguments{"bake", scene.string(), "--density", "24", "--samples",
+                                           "256",  "--quiet",      "--threads", "2"};
   const auto start = [&](const fs::path& output, bool resume) {
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"-o", output.string()});
     if (resume) words.push_back("--resume");
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      std::vector<char*> argv;
-      for (std::string& word : words) argv.push_back(word.data());
-      argv.push_back(nullptr);
-      ::execv(argv[0], argv.data());
-      ::_exit(127);
-    }
-    return pid;
+    return test::start_sconce(words);
   };
   const auto finish = [](pid_t pid) {
     int status = 0;

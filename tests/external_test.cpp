@@ -211,16 +211,7 @@ TEST_F(External, NeedsAnAtlas) {
 }
 
 TEST_F(External, ControlCEndsTheProgram) {
-  std::vector<std::string> arguments = words("hang '" + folder.path().string() + "'");
-  arguments.insert(arguments.begin(), SCONCE_PROGRAM);
-  const pid_t pid = ::fork();
-  if (pid == 0) {
-    std::vector<char*> argv;
-    for (std::string& word : arguments) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
+  const pid_t pid = test::start_sconce(words("hang '" + folder.path().string() + "'"));
   for (int i = 0; i < 1000 && !fs::exists(folder / "started"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_TRUE(fs::exists(folder / "started"));

@@ -203,17 +203,8 @@ TEST_F(Incremental, KilledLeavesTheOldPackageAndResumes) {
   write_file(folder / "room.glb", write_glb(scene, "test"));
   const auto start = [&] {
     Names words = arguments(fine);
-    words.insert(words.begin(), SCONCE_PROGRAM);
     words.insert(words.end(), {"--quiet", "--resume"});
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      std::vector<char*> argv;
-      for (std::string& word : words) argv.push_back(word.data());
-      argv.push_back(nullptr);
-      ::execv(argv[0], argv.data());
-      ::_exit(127);
-    }
-    return pid;
+    return test::start_sconce(words);
   };
   const fs::path state = package.string() + ".state";
   const pid_t pid = start();

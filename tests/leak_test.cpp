@@ -7,8 +7,8 @@
 
 #include "core/parallel.h"
 #include "core/test_data.h"
+#include "gather/lit_scene.h"
 #include "import/import.h"
-#include "scene/groups.h"
 #include "scene/shapes.h"
 #include "solve/solver.h"
 
@@ -16,26 +16,8 @@ namespace sconce {
 namespace {
 
 /// A scene with a lightmap.
-struct Rig {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
-  Atlas atlas;
-  TexelReceivers receivers;
-
-  Rig(Scene s, int page)
-      : scene((assign_groups(s, Grouping::one), std::move(s))),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world),
-        atlas(make(scene, world, tracer, page)),
-        receivers(world, tracer, atlas) {}
-  static Atlas make(const Scene& scene, const World& world, const Tracer& tracer, int page) {
-    AtlasParams params;
-    params.page_size = page;
-    return make_atlas(scene, world, tracer, params);
-  }
+struct Rig : LitAtlas {
+  Rig(Scene s, int page) : LitAtlas(std::move(s), Grouping::one, page) {}
 
   struct Texel {
     Vec3 position;

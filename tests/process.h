@@ -66,4 +66,18 @@ inline Outcome run_sconce(const std::vector<std::string>& args, const std::strin
   return outcome;
 }
 
+/// `sconce ARGS...` in the background. @return its process
+inline pid_t start_sconce(std::vector<std::string> args) {
+  args.insert(args.begin(), SCONCE_PROGRAM);
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    std::vector<char*> argv;
+    for (std::string& word : args) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  return pid;
+}
+
 }  // namespace sconce::test

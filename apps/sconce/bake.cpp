@@ -135,9 +135,14 @@ int execute(const Request& request, const Options& options, RankSession& session
   }
   std::vector<BakeState> states;
   if (bake.plan.count(true) > 0) {
-    const auto solver = make_solver(bake, state_path(request), ranks, progress);
-    if (time > 0) prepared->set_samples(samples_in(time - seconds(), *solver, bake, ranks));
-    Checkpoint checkpoint(state_path(request), bake.header(), request.resume, session, progress);
+    const fs::path state = state_path(request);
+    std::unique_ptr<Solver> solver;
+    if (time > 0) {  // the checkpoint names the samples
+      solver = make_solver(bake, state, ranks, progress);
+      prepared->set_samples(samples_in(time - seconds(), *solver, bake, ranks));
+    }
+    Checkpoint checkpoint(state, bake.header(), request.resume, session, progress);
+    if (!solver) solver = make_solver(bake, state, ranks, progress);
     const std::vector<std::size_t> tiles =
         checkpoint.todo(bake.job.params, request.shard.value_or(Shard{}), ranks);
     run_bake(bake, *solver, tiles, checkpoint.own(), progress);

@@ -145,15 +145,16 @@ void PreparedBake::set_samples(int samples) {
 }
 
 BakeHeader PreparedBake::header() const {
-  // Records of some groups only, on texels laid out for an earlier bake, are no part of a whole bake.
-  ContentHash partial;
-  partial.text(hash).span(std::span<const uint8_t>(wanted)).text(hash_hex(pack_layout(atlas)));
   const std::size_t groups = plan.count(true);
-  return {groups == scene.groups.size() ? hash : partial.hex(),
-          isa(),
-          static_cast<uint32_t>(groups),
-          receivers.size(),
-          TexelReceivers::kTile,
+  std::string records = hash;
+  // Records of some groups only, on texels laid out for an earlier bake, are no part of a whole bake.
+  if (groups != scene.groups.size())
+    records = ContentHash()
+                  .text(hash)
+                  .span(std::span<const uint8_t>(wanted))
+                  .text(hash_hex(pack_layout(atlas)))
+                  .hex();
+  return {records,      isa(), static_cast<uint32_t>(groups), receivers.size(), TexelReceivers::kTile,
           job.to_json()};
 }
 

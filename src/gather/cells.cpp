@@ -67,20 +67,20 @@ SurfaceCells make_cells(const World& world, SurfaceParts parts, std::span<const 
     const int n =
         expected > 0.25 ? cuts(world, t, 1.0 / parts.cut[t], kFiner * expected, 32 * expected + 4) : 1;
     cells.cut.push_back(static_cast<uint16_t>(n));
-    cells.owner.resize(cells.owner.size() + static_cast<std::size_t>(n * n), p);
-    cells.first.push_back(static_cast<uint32_t>(cells.owner.size()));
+    cells.part_of.resize(cells.part_of.size() + static_cast<std::size_t>(n * n), p);
+    cells.first.push_back(static_cast<uint32_t>(cells.part_of.size()));
   }
   cells.parts = std::move(parts);
   return cells;
 }
 
 float SurfaceCells::area(const World& world, uint32_t cell) const {
-  const double n = cut[owner[cell]];
-  return static_cast<float>(parts.area(world, owner[cell]) / (n * n));
+  const double n = cut[part_of[cell]];
+  return static_cast<float>(parts.area(world, part_of[cell]) / (n * n));
 }
 
 std::array<Vec2, 3> SurfaceCells::corners(uint32_t cell) const {
-  const uint32_t part = owner[cell];
+  const uint32_t part = part_of[cell];
   const auto [a, b, c] = parts.corners(part);
   std::array<Vec2, 3> corners = grid_corners(cell - first[part], cut[part]);
   for (Vec2& corner : corners) corner = a + corner.x * (b - a) + corner.y * (c - a);

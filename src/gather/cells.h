@@ -45,11 +45,11 @@ struct SurfaceParts {
 /// Equal cells of each part.
 struct SurfaceCells {
   SurfaceParts parts;
-  std::vector<uint32_t> first;  ///< per part and one more
-  std::vector<uint16_t> cut;    ///< per part
-  std::vector<uint32_t> owner;  ///< per cell: its part
+  std::vector<uint32_t> first;    ///< per part and one more
+  std::vector<uint16_t> cut;      ///< per part
+  std::vector<uint32_t> part_of;  ///< per cell: its part
 
-  std::size_t size() const { return owner.size(); }
+  std::size_t size() const { return part_of.size(); }
   bool reflects(uint32_t side) const { return parts.reflects(side); }
   /// Cell of a point; only for sides that have cells.
   uint32_t at(uint32_t side, Vec2 barycentric) const {
@@ -57,7 +57,7 @@ struct SurfaceCells {
     const uint32_t part = parts.at(side, barycentric, local);
     return first[part] + grid_part(local, cut[part]);
   }
-  uint32_t side(uint32_t cell) const { return parts.sides[owner[cell]]; }
+  uint32_t side(uint32_t cell) const { return parts.sides[part_of[cell]]; }
   /// m2
   float area(const World& world, uint32_t cell) const;
   FootprintPiece piece(const World& world, uint32_t cell) const;

@@ -72,7 +72,7 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
   const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
   std::vector<float> weights(cells_.size()), spacings(cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const uint32_t part = cells_.owner[c];
+    const uint32_t part = cells_.part_of[c];
     const double samples = static_cast<double>(params.samples) * mass[part] / total;
     const double n = cells_.cut[part];
     weights[c] = static_cast<float>(samples / (n * n));

@@ -4,27 +4,19 @@
 
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "gather/lit_scene.h"
 #include "gather/rows.h"
-#include "scene/groups.h"
 #include "scene/shapes.h"
 
 namespace sconce {
 namespace {
 
 /// A scene with its cloud.
-struct Rig {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
+struct Rig : LitScene {
   GatherCloud cloud;
 
   Rig(Scene s, std::size_t samples)
-      : scene((assign_groups(s, Grouping::one), std::move(s))),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world),
-        cloud(scene, world, tracer, lamps, nullptr, {samples, 1}) {}
+      : LitScene(std::move(s), Grouping::one), cloud(scene, world, tracer, lamps, nullptr, {samples, 1}) {}
 
   SparseRows rows(int rays) const { return gather(world, tracer, cloud, rays, 1, {}).rows; }
   double area() const {

@@ -41,6 +41,11 @@ bool same_surface(const SurfacePoint& p, const SurfacePoint& q) {
          std::abs(glm::dot(to, q.geometric_normal)) <= most;
 }
 
+bool may_speak(const Tracer& tracer, const SurfacePoint& at, const SurfacePoint& sample, float spacing) {
+  return glm::distance(at.position, sample.position) <= kReach * spacing && same_surface(at, sample) &&
+         sees(tracer, at, sample);
+}
+
 /// Of a cell whose middle fits: whether its corners see the sample too.
 Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells, uint32_t cell,
             const SurfacePoint& sample) {
@@ -104,9 +109,7 @@ Samples::Samples(const Tracer& tracer, std::vector<SurfacePoint> points, std::ve
 Samples::~Samples() = default;
 
 bool Samples::fits(const SurfacePoint& at, std::size_t sample) const {
-  const SurfacePoint& s = points_[sample];
-  return glm::distance(at.position, s.position) <= kReach * spacings_[sample] && same_surface(at, s) &&
-         sees(tracer_, at, s);
+  return may_speak(tracer_, at, points_[sample], spacings_[sample]);
 }
 
 std::optional<uint32_t> Samples::find(const SurfacePoint& at) const {
@@ -160,10 +163,7 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
     if (owner.sample != kOrphan) continue;
     const SurfacePoint at = cells.middle(world, cell);
     for (std::size_t s = points.size(); s > old && points.size() - s < 4; --s) {
-      const SurfacePoint& sample = points[s - 1];
-      if (glm::distance(at.position, sample.position) > kReach * around[s - 1] || !same_surface(at, sample) ||
-          !sees(tracer, at, sample))
-        continue;
+      if (!may_speak(tracer, at, points[s - 1], around[s - 1])) continue;
       owner.sample = static_cast<uint32_t>(s - 1);
       break;
     }

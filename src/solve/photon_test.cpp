@@ -4,24 +4,15 @@
 
 #include "core/parallel.h"
 #include "core/sobol.h"
-#include "scene/groups.h"
+#include "gather/lit_scene.h"
 #include "scene/shapes.h"
 #include "solve/photon_map.h"
 
 namespace sconce {
 namespace {
 
-struct Rig {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
-
-  explicit Rig(Scene s)
-      : scene((assign_groups(s, Grouping::per_light), std::move(s))),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world) {}
+struct Rig : LitScene {
+  explicit Rig(Scene s) : LitScene(std::move(s), Grouping::per_light) {}
   SolveContext context() const { return {scene, world, tracer, lamps}; }
   std::vector<GroupValue> solve(const BakeParams& params, const SurfacePoint& at) const {
     return solve(params, at, context());

@@ -3,7 +3,7 @@
 // docs/methods.md.
 #include <gtest/gtest.h>
 
-#include "scene/groups.h"
+#include "gather/lit_scene.h"
 #include "scene/shapes.h"
 #include "solve/solver.h"
 
@@ -11,17 +11,8 @@ namespace sconce {
 namespace {
 
 /// A scene ready to be asked at points.
-struct Rig {
-  Scene scene;
-  World world;
-  Tracer tracer;
-  Lamps lamps;
-
-  explicit Rig(Scene s, Grouping grouping = Grouping::per_light)
-      : scene((assign_groups(s, grouping), std::move(s))),
-        world(make_world(scene)),
-        tracer(scene, world),
-        lamps(scene, world) {}
+struct Rig : LitScene {
+  explicit Rig(Scene s, Grouping grouping = Grouping::per_light) : LitScene(std::move(s), grouping) {}
 
   std::vector<GroupValue> at(const SolverRow& row, const Vec3& p, const Vec3& n, int samples = 4096,
                              int bounces = -1) const {

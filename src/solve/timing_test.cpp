@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "scene/groups.h"
+#include "gather/lit_scene.h"
 #include "scene/shapes.h"
 #include "solve/timing.h"
 
@@ -28,19 +28,13 @@ class PatientSolver final : public Solver {
 TEST(SamplesWithin, FitsTheTime) {
   Scene scene;
   add_box(scene, "room", add_material(scene, "white", Rgb(0.7f), Rgb(1)), Vec3(0), Vec3(1), true);
-  assign_groups(scene, Grouping::one);
-  const World world = make_world(scene);
-  const Tracer tracer(scene, world);
-  AtlasParams params;
-  params.page_size = 32;
-  Atlas atlas = make_atlas(scene, world, tracer, params);
-  const TexelReceivers receivers(world, tracer, atlas);
+  const LitAtlas lit(std::move(scene), Grouping::one, 32);
   PatientSolver solver;
   const auto samples = [&](double seconds) {
-    return samples_within(seconds, solver, receivers, 1, [&] { return solver.now(); });
+    return samples_within(seconds, solver, lit.receivers, 1, [&] { return solver.now(); });
   };
   for (const double seconds : {30.0, 300.0}) {
-    const double all = seconds / (50e-6 * static_cast<double>(receivers.size()));
+    const double all = seconds / (50e-6 * static_cast<double>(lit.receivers.size()));
     EXPECT_LE(samples(seconds), all);
     EXPECT_NEAR(samples(seconds), 0.93 * all, 0.03 * all + kBatches);
     EXPECT_EQ(samples(seconds) % kBatches, 0);
