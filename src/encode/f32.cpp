@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
 #include <cfloat>
-#include <cmath>
-#include <cstring>
 
 #include "encode/rows.h"
+#include "encode/texels.h"
 
 namespace sconce {
 
@@ -12,30 +11,36 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
-void encode_f32(std::span<const float> rgb, std::span<std::byte> texels) {
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    const float v = std::isnan(rgb[i]) ? 0.0f : rgb[i];
-    std::memcpy(&texels[4 * i], &v, 4);
-  }
+void encode_f32(const Image& image, EncodedImage& out) {
+  texels::encode_channels<float>(image, out, [](float v, float) { return texels::clean(v); });
 }
 
-void decode_f32(std::span<const std::byte> texels, std::span<float> rgb) {
-  if (!rgb.empty()) std::memcpy(rgb.data(), texels.data(), rgb.size_bytes());
+void decode_f32(const EncodedImage& in, int first, int rows, float* out) {
+  texels::decode_channels<float>(in, first, rows, out, [](float v, float) { return v; });
 }
+
+constexpr std::string_view kGlsl =
+#include "encode/f32.glsl.h"
+    ;
 
 }  // namespace
 
 constexpr Encoding kEncodingF32{
-    "f32",
-    "32-bit float: exact, 12 bytes per texel",
-    0,
-    FLT_MIN,
-    FLT_MAX,
-    true,
-    PixelType::full,
-    12,
-    encode_f32,
-    decode_f32,
+    .name = "f32",
+    .doc = "32-bit float: exact; 12 bytes per texel",
+    .max_relative_error = 0,
+    .smallest = FLT_MIN,
+    .largest = FLT_MAX,
+    .is_signed = true,
+    .per_channel = true,
+    .filters = true,
+    .has_gain = false,
+    .type = TexelType::f32,
+    .stored_channels = 0,
+    .planes = 1,
+    .glsl = kGlsl,
+    .encode = encode_f32,
+    .decode = decode_f32,
 };
 
 }  // namespace sconce

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
-#include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -10,7 +9,8 @@
 namespace sconce {
 
 std::span<const Encoding> encodings() {
-  static const std::array kTable{kEncodingF32, kEncodingF16};
+  static const std::array kTable{kEncodingF32,    kEncodingF16,    kEncodingExp8, kEncodingRgbe8,
+                                 kEncodingSrgbe8, kEncodingMulti8, kEncodingBc6h};
   return kTable;
 }
 
@@ -21,15 +21,6 @@ const Encoding& find_encoding(std::string_view name) {
     names.emplace_back(encoding.name);
   }
   throw UsageError({}, "unknown encoding '" + std::string(name) + "'", join(names, ", "));
-}
-
-Image round_trip(const Image& image, const Encoding& encoding) {
-  if (image.data.size() % 3 != 0) throw Error({}, "encodings need channels in threes");
-  std::vector<std::byte> texels(image.data.size() / 3 * encoding.bytes_per_texel);
-  Image out = image;
-  encoding.encode(image.data, texels);
-  encoding.decode(texels, out.data);
-  return out;
 }
 
 }  // namespace sconce

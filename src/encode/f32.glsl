@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
+vec4 decode_f32(vec4 texel, vec4 gain) {
+  return texel;
+}
