@@ -9,6 +9,7 @@
 #include "checkpoint.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "encode/choice.h"
 #include "ranks.h"
 #include "solve/timing.h"
 
@@ -48,7 +49,7 @@ struct Given {
   double density = 0, noise = 0, photons = 0;
   bool direct_estimate = false;
   std::string denoise = "off";
-  double time = 0;
+  double time = 0, max_error = 0.01;
 };
 
 /// What this verb's options say, checked.
@@ -169,7 +170,7 @@ int execute(const Request& request, const Options& options, RankSession& session
 /// @return exit code when nothing is left to do
 std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
   auto& [scene, output, shard, quality, samples, bounces, seed, page, density, noise, photons,
-         direct_estimate, denoise, time] = request.given;
+         direct_estimate, denoise, time, max_error] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
                      "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
@@ -190,7 +191,11 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
                  "photon solver: emitted by all lamps together (default: 4 per texel, 0.5 to 4 M)");
   options.flag("--direct-estimate", &direct_estimate,
                "photon solver: texels show the map itself, no final gather");
-  options.option("--encoding", &job.encoding, "f16 or f32, and exceptions by group: f16,ceiling=f32");
+  options.option(
+      "--encoding", &job.encoding,
+      "f32, f16, exp8, rgbe8, srgbe8, multi8, bc6h, lum:ENCODING (luminance only, four groups to a "
+      "texture) or auto; exceptions by group: f16,ceiling=lum:f16");
+  options.option("--max-error", &max_error, "what --encoding auto may lose, e.g. 1% (the default)");
   options.option("--denoise", &denoise,
                  "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
   options.option("--seed", &seed, "random seed");
@@ -226,6 +231,12 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
     if (given && job.solver != solver)
       throw UsageError(option, "means nothing to the solver " + job.solver,
                        std::string("--solver ") + solver);
+  if (!(max_error > 0 && max_error < 1))
+    throw UsageError("--max-error", fmt::format("{} is out of range", max_error), "above 0, below 100 %");
+  job.max_error = max_error;
+  // Blocks of 4 x 4 texels must not mix two charts.
+  if (job.encoding.find("bc6h") != std::string::npos || job.encoding.find(kAutoEncoding) != std::string::npos)
+    job.atlas.gutter = 4;
   if (noise > 0 && samples == 0) samples = samples_of("final");
   if (denoise != "on" && denoise != "off")
     throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");

@@ -8,7 +8,7 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "encode/encoding.h"
+#include "encode/choice.h"
 #include "import/import.h"
 #include "receive/layout.h"
 #include "solve/inputs.h"
@@ -51,13 +51,14 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
   return hash.hex();
 }
 
-/// The encoding of each group by `--encoding f16,ceiling=f32`.
+/// The encoding of each group by `--encoding f16,ceiling=lum:f16`.
 std::vector<std::string> group_encodings(const std::string& text, const Scene& scene) {
   std::vector<std::string> result(scene.groups.size(), "f16");
   for (const std::string& part : split(text, ',')) {
     const std::size_t equals = part.rfind('=');
     const std::string pattern = equals == std::string::npos ? "*" : part.substr(0, equals);
-    const std::string name(find_encoding(equals == std::string::npos ? part : part.substr(equals + 1)).name);
+    std::string name = equals == std::string::npos ? part : part.substr(equals + 1);
+    if (name != kAutoEncoding) name = parse_encoding(name).name();
     bool found = false;
     for (std::size_t g = 0; g < result.size(); ++g)
       if (glob_match(pattern, scene.groups[g].name)) {
@@ -88,12 +89,23 @@ Atlas make_layout(const PreparedBake& bake, const Progress& progress) {
 }  // namespace
 
 std::string BakeJob::to_json() const {
-  const nlohmann::json json = {
-      {"scene", scene.string()},    {"grouping", grouping},      {"solver", solver},
-      {"encoding", encoding},       {"denoise", denoise},        {"page_size", atlas.page_size},
-      {"max_page", atlas.max_page}, {"density", atlas.density},  {"samples", params.samples},
-      {"bounces", params.bounces},  {"seed", params.seed},       {"noise", params.noise},
-      {"cloud", params.cloud},      {"photons", params.photons}, {"final_gather", params.final_gather}};
+  const nlohmann::json json = {{"scene", scene.string()},
+                               {"grouping", grouping},
+                               {"solver", solver},
+                               {"encoding", encoding},
+                               {"max_error", max_error},
+                               {"denoise", denoise},
+                               {"page_size", atlas.page_size},
+                               {"max_page", atlas.max_page},
+                               {"gutter", atlas.gutter},
+                               {"density", atlas.density},
+                               {"samples", params.samples},
+                               {"bounces", params.bounces},
+                               {"seed", params.seed},
+                               {"noise", params.noise},
+                               {"cloud", params.cloud},
+                               {"photons", params.photons},
+                               {"final_gather", params.final_gather}};
   return json.dump();
 }
 
@@ -105,9 +117,11 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("grouping").get_to(job.grouping);
     json.at("solver").get_to(job.solver);
     json.at("encoding").get_to(job.encoding);
+    json.at("max_error").get_to(job.max_error);
     json.at("denoise").get_to(job.denoise);
     json.at("page_size").get_to(job.atlas.page_size);
     json.at("max_page").get_to(job.atlas.max_page);
+    json.at("gutter").get_to(job.atlas.gutter);
     json.at("density").get_to(job.atlas.density);
     json.at("samples").get_to(job.params.samples);
     json.at("bounces").get_to(job.params.bounces);
@@ -128,7 +142,7 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
       world(make_world(scene)),
       inputs(hash_inputs(job, scene, world)),
       encodings(group_encodings(job.encoding, scene)),
-      plan(inputs, encodings, before),
+      plan(inputs, encodings, job.max_error, before),
       wanted(plan.wanted()),
       tracer(scene, world),
       lamps(scene, world),
@@ -166,7 +180,13 @@ bool PreparedBake::up_to_date() const {
 }
 
 std::string PreparedBake::result_hash() const {
-  return ContentHash().text(hash).text(made_with(job.params)).text(job.encoding).value(job.denoise).hex();
+  return ContentHash()
+      .text(hash)
+      .text(made_with(job.params))
+      .text(job.encoding)
+      .value(job.max_error)
+      .value(job.denoise)
+      .hex();
 }
 
 std::unique_ptr<Solver> make_solver(const PreparedBake& bake, const std::filesystem::path& state,

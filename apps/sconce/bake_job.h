@@ -17,7 +17,8 @@ struct BakeJob {
   std::string grouping = "auto";
   std::string solver = "radiosity";
   std::string encoding =
-      "f16";  ///< "f16" or "f16,ceiling=f32": a default, then exceptions by group name or glob
+      "f16";  ///< "f16" or "f16,ceiling=lum:f16": a default, then exceptions by group name or glob
+  double max_error = 0.01;  ///< of the encoding "auto"
   bool denoise = false;
   AtlasParams atlas;
   BakeParams params;

@@ -19,18 +19,24 @@ bool can_give(const Manifest& manifest) {
   return true;
 }
 
-/// Full floats give any encoding as if freshly solved; others only their own.
-bool fine_enough(const Package& package, std::size_t group, const std::string& encoding) {
+/// Halves give any encoding but full floats, and what met its error once meets it again.
+bool fine_enough(const LayerInfo& layer, const std::string& encoding, double max_error) {
+  if (layer.encoding == encoding || layer.encoding == "f32") return true;
+  if (encoding == kAutoEncoding && layer.channel < 0 && layer.error.relative <= max_error) return true;
+  return layer.encoding == "f16" && encoding != "f32" && encoding != "lum:f32";
+}
+
+bool fine_enough(const Package& package, std::size_t group, const std::string& encoding, double max_error) {
   const std::vector<LayerInfo>& files = package.layer_files();
   return std::all_of(files.begin(), files.end(), [&](const LayerInfo& layer) {
-    return layer.group != group || layer.encoding == encoding || layer.encoding == "f32";
+    return layer.group != group || fine_enough(layer, encoding, max_error);
   });
 }
 
 }  // namespace
 
 BakePlan::BakePlan(const std::vector<std::string>& inputs, const std::vector<std::string>& encodings,
-                   const std::filesystem::path& package)
+                   double max_error, const std::filesystem::path& package)
     : kept_(inputs.size()) {
   if (package.empty()) return;
   try {
@@ -42,7 +48,7 @@ BakePlan::BakePlan(const std::vector<std::string>& inputs, const std::vector<std
   if (!can_give(manifest)) return;
   for (std::size_t g = 0; g < inputs.size(); ++g)
     for (std::size_t old = 0; old < manifest.groups.size() && !kept_[g]; ++old)
-      if (manifest.groups[old].inputs == inputs[g] && fine_enough(*before_, old, encodings[g]))
+      if (manifest.groups[old].inputs == inputs[g] && fine_enough(*before_, old, encodings[g], max_error))
         kept_[g] = old;
 }
 

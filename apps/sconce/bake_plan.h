@@ -17,9 +17,10 @@ class BakePlan {
  public:
   /// @param inputs     hash per group
   /// @param encodings  per group: a layer that was kept coarser than that is solved again
+  /// @param max_error  of "auto"
   /// @param package    may be empty, missing or damaged: then nothing is kept
   BakePlan(const std::vector<std::string>& inputs, const std::vector<std::string>& encodings,
-           const std::filesystem::path& package);
+           double max_error, const std::filesystem::path& package);
 
   /// The package that layers are kept from, as it was before the denoiser; null where none stands.
   const Package* before() const { return before_ ? &*before_ : nullptr; }

@@ -122,6 +122,7 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
                     {"stretch", fmt::format("mean {:.3f}, max {:.3f}", atlas.report.stretch_mean,
                                             atlas.report.stretch_max)}};
   contents.encodings = bake.encodings;
+  contents.max_error = bake.job.max_error;
 
   std::vector<std::vector<GroupValue>> values = own_values(bake, states, progress);
   if (bake.job.denoise) {

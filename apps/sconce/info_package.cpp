@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "encode/choice.h"
 #include "info.h"
 #include "package/package.h"
 #include "table.h"
@@ -14,8 +15,8 @@ using Json = nlohmann::ordered_json;
 std::string percent(double value) {
   return fmt::format("{:.1f} %", 100 * value);
 }
-std::string megabytes(uint64_t bytes) {
-  return fmt::format("{:.2f}", static_cast<double>(bytes) / 1e6);
+std::string megabytes(double bytes) {
+  return fmt::format("{:.2f}", bytes / 1e6);
 }
 
 void add_groups(const Manifest& m, InfoReport& report) {
@@ -43,30 +44,72 @@ void add_groups(const Manifest& m, InfoReport& report) {
   if (!m.groups.empty()) report.text += table.text();
 }
 
-void add_layers(const Manifest& m, InfoReport& report) {
-  Table table(
-      {{"LAYER"}, {"PAGE", Table::Align::right}, {"ENCODING"}, {"MB", Table::Align::right}, {"FILE"}});
-  Json& layers = report.json["layers"] = Json::array();
-  uint64_t bytes = 0;
+/// Where an encoding loses what eyes see, and what it is good for: system A's advice, with this layer's
+/// figures.
+std::vector<std::string> encoding_advice(const Manifest& m) {
+  constexpr double kSeen = 0.01, kColourSeen = 2.3;  // of luminance; a just noticeable CIELAB distance
+  std::vector<std::string> lines;
   for (const LayerInfo& layer : m.layers) {
-    bytes += layer.bytes;
+    const EncodingChoice choice = parse_encoding(layer.encoding);
     const std::string& group = m.groups.at(layer.group).name;
-    table.add(
-        {group, std::to_string(layer.page), layer.encoding, megabytes(layer.bytes), "layers/" + layer.file});
+    if (layer.error.relative > kSeen && choice.encoding->type == TexelType::bc6h)
+      lines.push_back(fmt::format("bc6h is for smooth layers; '{}' page {} loses {:.1f} %", group, layer.page,
+                                  100 * layer.error.relative));
+    else if (layer.error.relative > kSeen)
+      lines.push_back(fmt::format("{} holds 1 % over 1:{:.3g}; '{}' page {} loses {:.1f} %",
+                                  choice.encoding->name, range_within(*choice.encoding, kSeen), group,
+                                  layer.page, 100 * layer.error.relative));
+    if (choice.luminance && layer.error.chroma > kColourSeen)
+      lines.push_back(
+          fmt::format("'{}' page {} keeps luminance only: its colour is off by {:.1f} dE*ab, and a colour "
+                      "fader will not show what surfaces bleed; {} keeps it",
+                      group, layer.page, layer.error.chroma, choice.encoding->name));
+  }
+  return lines;
+}
+
+void add_layers(const Manifest& m, InfoReport& report) {
+  Table table({{"LAYER"},
+               {"PAGE", Table::Align::right},
+               {"ENCODING"},
+               {"ERROR", Table::Align::right},
+               {"COLOUR", Table::Align::right},
+               {"MB", Table::Align::right},
+               {"ON DISK", Table::Align::right},
+               {"FILE"}});
+  Json& layers = report.json["layers"] = Json::array();
+  std::map<std::string, uint64_t> files;  // groups may share one
+  double texel_bytes = 0;
+  for (const LayerInfo& layer : m.layers) {
+    files[layer.file] = layer.bytes;
+    const double memory = parse_encoding(layer.encoding).bytes_per_texel() * m.width * m.height;
+    texel_bytes += memory;
+    const std::string& group = m.groups.at(layer.group).name;
+    table.add({group, std::to_string(layer.page), layer.encoding,
+               fmt::format("{:.2f} %", 100 * layer.error.relative), fmt::format("{:.1f}", layer.error.chroma),
+               megabytes(memory), megabytes(static_cast<double>(layer.bytes)), "layers/" + layer.file});
     layers.push_back({{"group", group},
                       {"page", layer.page},
                       {"encoding", layer.encoding},
+                      {"error", layer.error.relative},
+                      {"chroma_error", layer.error.chroma},
+                      {"texel_bytes", memory},
                       {"bytes", layer.bytes},
                       {"file", "layers/" + layer.file}});
   }
-  report.text += fmt::format("layers        {}, {} MB\n", m.layers.size(), megabytes(bytes));
+  double bytes = 0;
+  for (const auto& [file, size] : files) bytes += static_cast<double>(size);
+  report.json["texel_bytes"] = texel_bytes;
+  report.text += fmt::format("layers        {}, {} MB of texels, {} MB on disk\n", m.layers.size(),
+                             megabytes(texel_bytes), megabytes(bytes));
   if (!m.layers.empty()) report.text += table.text();
+  for (const std::string& line : encoding_advice(m)) report.text += "advice        " + line + "\n";
   uint64_t raw_bytes = 0;
   for (const LayerInfo& layer : m.raw) raw_bytes += layer.bytes;
   report.json["raw_layers"] = {{"count", m.raw.size()}, {"bytes", raw_bytes}};
   if (!m.raw.empty())
-    report.text +=
-        fmt::format("raw layers    {}, {} MB, before the denoiser\n", m.raw.size(), megabytes(raw_bytes));
+    report.text += fmt::format("raw layers    {}, {} MB, before the denoiser\n", m.raw.size(),
+                               megabytes(static_cast<double>(raw_bytes)));
 }
 
 void add_options(const Manifest& m, InfoReport& report) {

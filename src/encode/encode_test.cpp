@@ -101,7 +101,7 @@ TEST(Encoding, EveryRowKeepsItsPromise) {
       worst = std::max(worst, std::abs(double{back.data[i]} - image.data[i]) / size);
     }
     EXPECT_LE(worst, e.max_relative_error * (1 + 1e-5));
-    EXPECT_GE(worst, 0.48 * e.max_relative_error);  // the bound is tight: sRGBE rounds, its row says a step
+    EXPECT_GE(worst, 0.9 * e.max_relative_error);  // the bound is tight
   }
 }
 
@@ -189,9 +189,9 @@ TEST(Encoding, SignedExponentKeepsZeroAndPowersOfTwo) {
   EXPECT_EQ(back.data[1], -back.data[2]);
   EXPECT_EQ(back.data[4], 0);
   EXPECT_NEAR(back.data[3], 1e-30f, 1e-32f);
-  for (int e = -125; e <= 126; ++e) {
-    image.data.assign(9, std::exp2(static_cast<float>(e)));
-    EXPECT_EQ(round_trip(image, find_encoding("srgbe8")).data, image.data) << e;
+  for (int power = -125; power <= 126; ++power) {
+    image.data.assign(9, std::exp2(static_cast<float>(power)));
+    EXPECT_EQ(round_trip(image, find_encoding("srgbe8")).data, image.data) << power;
   }
 }
 

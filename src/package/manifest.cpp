@@ -77,6 +77,10 @@ LayerInfo parse_layer(const JsonValue& v, const Manifest& m) {
   layer.file = base_name(v.at("file"));
   layer.hash = v.at("hash").text();
   layer.bytes = static_cast<uint64_t>(v.at("bytes").integer(0, INT64_MAX));
+  if (v.has("channel")) layer.channel = static_cast<int>(v.at("channel").index(4));
+  layer.gain = v.number("gain", 1);
+  if (!(layer.gain > 0)) v.at("gain").fail("is not above 0");
+  layer.error = {v.number("error", 0), v.number("chroma_error", 0)};
   return layer;
 }
 
@@ -95,13 +99,18 @@ void check_layers(const JsonValue& list, const Manifest& m, const std::vector<La
 
 Json print_layers(const std::vector<LayerInfo>& layers, const Manifest& m) {
   Json list = Json::array();
-  for (const LayerInfo& l : layers)
+  for (const LayerInfo& l : layers) {
     list.push_back({{"group", m.groups.at(l.group).name},
                     {"page", l.page},
                     {"encoding", l.encoding},
                     {"file", l.file},
                     {"hash", l.hash},
-                    {"bytes", l.bytes}});
+                    {"bytes", l.bytes},
+                    {"gain", finite(l.gain, "layers.gain")},
+                    {"error", finite(l.error.relative, "layers.error")},
+                    {"chroma_error", finite(l.error.chroma, "layers.chroma_error")}});
+    if (l.channel >= 0) list.back()["channel"] = l.channel;
+  }
   return list;
 }
 
@@ -135,8 +144,8 @@ std::vector<std::string> layer_names(std::span<const GroupInfo> groups) {
   return names;
 }
 
-std::string page_file(std::string_view stem, int page) {
-  return std::string(stem) + "." + std::to_string(page) + ".exr";
+std::string page_file(std::string_view stem, int page, std::string_view extension) {
+  return std::string(stem) + "." + std::to_string(page) + std::string(extension);
 }
 
 std::string sky_file(std::size_t index) {

@@ -34,7 +34,7 @@ std::vector<std::string> layer_names(std::span<const GroupInfo> groups);
 inline constexpr std::string_view kLayerFolder = "layers", kRawFolder = "raw";
 
 /// "receivers.0.exr" and the like.
-std::string page_file(std::string_view stem, int page);
+std::string page_file(std::string_view stem, int page, std::string_view extension = ".exr");
 /// "sky.exr", "sky.1.exr", ...: the radiance of the n-th sky light.
 std::string sky_file(std::size_t index);
 

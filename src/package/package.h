@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "encode/choice.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -35,10 +36,13 @@ struct GroupInfo {
 struct LayerInfo {
   uint32_t group = 0;
   int page = 0;
-  std::string encoding;  ///< row of encode/table
-  std::string file;      ///< base name below layers/
-  std::string hash;      ///< of the file's bytes
-  uint64_t bytes = 0;
+  std::string encoding;   ///< EncodingChoice::name()
+  std::string file;       ///< base name below layers/; groups that share a texture name the same
+  std::string hash;       ///< of the file's bytes
+  uint64_t bytes = 0;     ///< of the file
+  int channel = -1;       ///< luminance packing: which channel of the file; -1 = R, G, B
+  double gain = 1;        ///< EncodedImage::gain
+  EncodingError error{};  ///< against the layer before it was encoded
 };
 
 /// Where an option's value came from: "default", "side file", "command line".
@@ -81,7 +85,9 @@ struct PackageContents {
   /// Per group: the solver's own layer (raw where there is raw, else layers) is that of a package that
   /// stands; empty = none. Files are linked where name and encoding stay.
   std::vector<std::optional<KeptLayer>> kept;
-  std::vector<std::string> encodings;  ///< per group
+  /// Per group: EncodingChoice::name(), or "auto": the smallest whose error stays below `max_error`.
+  std::vector<std::string> encodings;
+  double max_error = 0.01;
   std::vector<Image> receivers;  ///< per page: albedo.R/G/B and weight (area x visibility; 0 = no texel)
   std::vector<Image> noise;      ///< per page: one channel per group, relative standard error
   std::vector<std::vector<Image>> raw;  ///< before the denoiser, as `layers`; empty = there was none
@@ -110,7 +116,12 @@ class Package {
 
   const Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& path() const { return path_; }
-  /// Decoded layer, RGB lux. @throws Error naming the file when damaged or of another size
+  /// @throws Error when there is no such group or page
+  const LayerInfo& layer_info(std::size_t group, int page) const;
+  /// One of layer_files() as it is stored: R, G, B, or the luminances of all groups that share its file.
+  /// @throws Error naming the file when damaged or of another size
+  EncodedImage encoded(const LayerInfo& layer) const;
+  /// Decoded layer, RGB lux. @throws as encoded()
   Image layer(std::size_t group, int page) const;
   Image receivers(int page) const;
   Image noise(int page) const;
@@ -120,6 +131,8 @@ class Package {
   Scene scene() const;
 
  private:
+  Image page_image(const std::string& name, const std::vector<std::string>& channels) const;
+
   std::filesystem::path path_;
   Manifest manifest_;
   bool raw_ = false;

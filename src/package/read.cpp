@@ -6,9 +6,10 @@
 #include "core/files.h"
 #include "core/hash.h"
 #include "core/parallel.h"
-#include "encode/encoding.h"
+#include "encode/choice.h"
 #include "image/io.h"
 #include "package/glb.h"
+#include "package/layer_file.h"
 #include "package/manifest.h"
 
 namespace fs = std::filesystem;
@@ -50,32 +51,16 @@ void check_listed(const Manifest& m, const std::string& where) {
     if (m.hashes.count(name) == 0) throw Error(where, "files." + name + " is missing");
   for (const auto* layers : {&m.layers, &m.raw})
     for (const LayerInfo& layer : *layers) {
-      const auto known = encodings();
-      if (std::none_of(known.begin(), known.end(),
-                       [&](const Encoding& e) { return e.name == layer.encoding; }))
-        throw Error(where, "layer " + layer.file + " has the unknown encoding '" + layer.encoding + "'");
+      EncodingChoice choice;
+      try {
+        choice = parse_encoding(layer.encoding);
+      } catch (const UsageError& e) {
+        throw Error(where, "layer " + layer.file + ": " + e.what());
+      }
+      if (choice.luminance != (layer.channel >= 0))
+        throw Error(where, "layer " + layer.file + " has the encoding " + layer.encoding +
+                               (choice.luminance ? " and no channel" : " and a channel"));
     }
-}
-
-// The named channels, in this order.
-Image pick(const Image& image, const std::vector<std::string>& names, const Manifest& m,
-           const fs::path& file) {
-  if (image.width != m.width || image.height != m.height)
-    throw Error(file.string(), "has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                                   " texels, the manifest says " + std::to_string(m.width) + " x " +
-                                   std::to_string(m.height));
-  std::vector<std::size_t> from;
-  for (const std::string& name : names) {
-    const int channel = image.channel(name);
-    if (channel < 0) throw Error(file.string(), "lacks the channel " + name);
-    from.push_back(static_cast<std::size_t>(channel));
-  }
-  Image out(image.width, image.height, names);
-  out.text = image.text;
-  for (std::size_t i = 0; i < image.pixels(); ++i)
-    for (std::size_t c = 0; c < names.size(); ++c)
-      out.data[i * names.size() + c] = image.data[i * image.stride() + from[c]];
-  return out;
 }
 
 Id<LightGroup> find_group(const Manifest& m, const std::string& name) {
@@ -140,29 +125,53 @@ std::filesystem::path Package::layer_folder() const {
   return path_ / (raw_ ? kRawFolder : kLayerFolder);
 }
 
-Image Package::layer(std::size_t group, int page) const {
-  for (const LayerInfo& layer : layer_files()) {
-    if (layer.group != group || layer.page != page) continue;
-    const fs::path file = layer_folder() / layer.file;
-    const std::string name = layer_names(manifest_.groups)[group];
-    Image image = pick(read_exr(file), {name + ".R", name + ".G", name + ".B"}, manifest_, file);
-    const auto unit = image.text.find("sconce:unit");
-    if (unit == image.text.end() || unit->second != "lux")
-      throw Error(file.string(), "lacks the attribute sconce:unit = lux");
-    image.channels = {"R", "G", "B"};
-    return image;
+EncodedImage Package::encoded(const LayerInfo& layer) const {
+  const std::vector<std::string> names = layer_names(manifest_.groups);
+  const std::string& name = names[layer.group];
+  LayerShape shape{
+      parse_encoding(layer.encoding).encoding, manifest_.width, manifest_.height, {}, {1, 1, 1, 1}};
+  if (layer.channel < 0) {
+    shape.channels = {name + ".R", name + ".G", name + ".B"};
+    shape.gain.fill(static_cast<float>(layer.gain));
+  } else {
+    for (const LayerInfo& other : layer_files()) {
+      if (other.file != layer.file) continue;
+      const auto c = static_cast<std::size_t>(other.channel);
+      shape.channels.resize(std::max(shape.channels.size(), c + 1));
+      shape.channels[c] = names[other.group] + ".Y";
+      shape.gain[c] = static_cast<float>(other.gain);
+    }
   }
+  return read_layer_file(layer_folder() / layer.file, shape);
+}
+
+const LayerInfo& Package::layer_info(std::size_t group, int page) const {
+  for (const LayerInfo& layer : layer_files())
+    if (layer.group == group && layer.page == page) return layer;
   throw Error(path_.string(), "has no layer " + std::to_string(group) + " on page " + std::to_string(page));
 }
 
+Image Package::layer(std::size_t group, int page) const {
+  const LayerInfo& info = layer_info(group, page);
+  Image image = decode(encoded(info));
+  if (info.channel >= 0)
+    image = unpack_luminance(image, static_cast<std::size_t>(info.channel), manifest_.groups[group].color);
+  image.channels = {"R", "G", "B"};
+  image.text["sconce:unit"] = "lux";
+  return image;
+}
+
 Image Package::receivers(int page) const {
-  const fs::path file = path_ / page_file("receivers", page);
-  return pick(read_exr(file), {"albedo.R", "albedo.G", "albedo.B", "weight"}, manifest_, file);
+  return page_image(page_file("receivers", page), {"albedo.R", "albedo.G", "albedo.B", "weight"});
 }
 
 Image Package::noise(int page) const {
-  const fs::path file = path_ / page_file(raw_ ? "raw-noise" : "noise", page);
-  return pick(read_exr(file), layer_names(manifest_.groups), manifest_, file);
+  return page_image(page_file(raw_ ? "raw-noise" : "noise", page), layer_names(manifest_.groups));
+}
+
+Image Package::page_image(const std::string& name, const std::vector<std::string>& channels) const {
+  const fs::path file = path_ / name;
+  return pick_channels(read_exr(file), channels, manifest_.width, manifest_.height, file);
 }
 
 std::string Package::layout() const {

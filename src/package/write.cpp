@@ -8,9 +8,12 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "encode/encoding.h"
+#include "encode/choice.h"
+#include "image/io.h"
 #include "package/glb.h"
+#include "package/layer_file.h"
 #include "package/manifest.h"
+#include "package/texture.h"
 
 namespace fs = std::filesystem;
 
@@ -58,19 +61,12 @@ void check(const PackageContents& c) {
     throw Error({}, "the package's instance tables do not match its scene");
 }
 
-float largest(const Image& image) {
+float largest(std::span<const Image> images) {
   float most = 0;
-  for (const float v : image.data)
-    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  for (const Image& image : images)
+    for (const float v : image.data)
+      if (std::isfinite(v)) most = std::max(most, std::abs(v));
   return most;
-}
-
-// Direct sun exceeds what halves hold: such a layer is kept in full floats rather than clipped.
-std::string fitting_encoding(const std::string& wanted, const std::vector<Image>& pages) {
-  const Encoding& encoding = find_encoding(wanted);
-  for (const Image& page : pages)
-    if (largest(page) > encoding.largest) return "f32";
-  return wanted;
 }
 
 // Radiance of a sky, its strength multiplied in; a constant sky is one pixel.
@@ -93,11 +89,12 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
   if (ec) fs::copy_file(from, to);
 }
 
-/// One file of the package: how to write it, and where its hash goes.
+/// One file of the package: how to write it, and which layers it holds.
 struct Job {
   fs::path file;
   std::function<void(const fs::path&)> write;
-  std::string hash;
+  std::vector<LayerInfo*> layers{};
+  std::string hash{};
   uint64_t bytes = 0;
 };
 
@@ -106,13 +103,13 @@ class Writer {
   explicit Writer(PackageContents& contents) : c_(contents), m_(contents.manifest) {
     names_ = layer_names(m_.groups);
     add_layers(c_.layers, kLayerFolder, m_.layers);
-    add_layers(c_.raw, kRawFolder, m_.raw);
+    if (!c_.raw.empty()) add_layers(c_.raw, kRawFolder, m_.raw);
     add_pages();
     add_sky();
     jobs_.push_back(
-        {"scene.glb", [this](const fs::path& f) { write_file(f, write_glb(c_.scene, m_.generator)); }, {}});
+        {"scene.glb", [this](const fs::path& f) { write_file(f, write_glb(c_.scene, m_.generator)); }});
     if (!c_.layout.empty())
-      jobs_.push_back({kLayoutFile, [this](const fs::path& f) { write_file(f, c_.layout); }, {}});
+      jobs_.push_back({kLayoutFile, [this](const fs::path& f) { write_file(f, c_.layout); }});
   }
 
   void run(const fs::path& folder) {
@@ -125,58 +122,103 @@ class Writer {
       job.hash = hash_file(folder / job.file);
       job.bytes = fs::file_size(folder / job.file);
     });
-    std::size_t next = 0;
-    for (auto* layers : {&m_.layers, &m_.raw})
-      for (LayerInfo& layer : *layers) {
-        layer.hash = jobs_[next].hash;
-        layer.bytes = jobs_[next++].bytes;
-      }
     m_.hashes.clear();
-    for (; next < jobs_.size(); ++next) m_.hashes[jobs_[next].file.string()] = jobs_[next].hash;
+    for (const Job& job : jobs_) {
+      for (LayerInfo* layer : job.layers) layer->hash = job.hash, layer->bytes = job.bytes;
+      if (job.layers.empty()) m_.hashes[job.file.string()] = job.hash;
+    }
     write_file(folder / kManifestFile, print_manifest(m_));
   }
 
  private:
+  /// What a solver gave is kept in floats where the denoiser's result is not.
+  EncodingChoice encoding_of(std::size_t g, const std::vector<Image>& pages, bool raw) const {
+    EncodingChoice choice;
+    if (c_.encodings[g] == kAutoEncoding)
+      choice = raw ? parse_encoding("f16")
+                   : choose_encoding(pages, c_.receivers, m_.groups[g].mean_lux, c_.max_error);
+    else
+      choice = parse_encoding(c_.encodings[g]);
+    if (raw && choice.encoding->name != "f32") choice = parse_encoding("f16");
+    // Direct sun exceeds what halves hold: such a layer is kept in full floats rather than clipped.
+    const bool fits = choice.encoding->has_gain || largest(pages) <= choice.encoding->largest;
+    return fits ? choice : EncodingChoice{&find_encoding("f32"), choice.luminance};
+  }
+
   void add_layers(std::vector<std::vector<Image>>& layers, std::string_view folder,
                   std::vector<LayerInfo>& listed) {
-    listed.clear();
-    const bool own = &layers == (c_.raw.empty() ? &c_.layers : &c_.raw);
-    for (std::size_t g = 0; g < layers.size(); ++g) {
-      if (own && g < c_.kept.size() && c_.kept[g] && keep_files(g, *c_.kept[g], folder, listed)) continue;
-      const std::string encoding = fitting_encoding(c_.encodings[g], layers[g]);
-      const PixelType type = find_encoding(encoding).exr_type;
-      for (int page = 0; page < m_.pages; ++page) {
-        Image& image = layers[g][static_cast<std::size_t>(page)];
-        image.channels = {names_[g] + ".R", names_[g] + ".G", names_[g] + ".B"};
-        image.text["sconce:unit"] = "lux";
-        image.text["sconce:group"] = m_.groups[g].name;
-        const std::string file = page_file(safe_file_name(m_.groups[g].name), page);
-        listed.push_back({static_cast<uint32_t>(g), page, encoding, file, {}, 0});
-        jobs_.push_back(
-            {fs::path(folder) / file, [&image, type](const fs::path& f) { write_exr(f, image, type); }, {}});
+    const bool raw = &layers == &c_.raw, own = raw == !c_.raw.empty();
+    std::vector<EncodingChoice> encodings;
+    for (std::size_t g = 0; g < layers.size(); ++g) encodings.push_back(encoding_of(g, layers[g], raw));
+    const auto pages = static_cast<std::size_t>(m_.pages);
+    listed.assign(layers.size() * pages, {});  // per group and page; jobs point into it
+    std::map<std::string, int> packs;
+    for (const LayerTexture& texture : share_textures(encodings)) {
+      const std::size_t g = texture.groups.front();
+      if (own && !texture.encoding.luminance && g < c_.kept.size() && c_.kept[g] &&
+          keep_files(g, *c_.kept[g], texture.encoding, folder, &listed[g * pages]))
+        continue;
+      std::string stem = safe_file_name(m_.groups[g].name);
+      if (texture.encoding.luminance) {
+        const std::string name = "lum-" + std::string(texture.encoding.encoding->name);
+        stem = safe_file_name(name + "." + std::to_string(packs[name]++));
+      }
+      for (std::size_t page = 0; page < pages; ++page) {
+        const std::string file =
+            page_file(stem, static_cast<int>(page), layer_extension(*texture.encoding.encoding));
+        Job job{fs::path(folder) / file, {}};
+        for (std::size_t i = 0; i < texture.groups.size(); ++i) {
+          LayerInfo& layer = listed[texture.groups[i] * pages + page];
+          layer.group = static_cast<uint32_t>(texture.groups[i]);
+          layer.page = static_cast<int>(page);
+          layer.encoding = texture.encoding.name();
+          layer.file = file;
+          if (texture.encoding.luminance) layer.channel = static_cast<int>(i);
+          job.layers.push_back(&layer);
+        }
+        job.write = [this, &layers, texture, page, infos = job.layers](const fs::path& f) {
+          write_texture(f, layers, texture, page, infos);
+        };
+        jobs_.push_back(std::move(job));
       }
     }
   }
 
+  /// Encodes, measures what that loses, writes.
+  void write_texture(const fs::path& file, const std::vector<std::vector<Image>>& layers,
+                     const LayerTexture& texture, std::size_t page,
+                     const std::vector<LayerInfo*>& infos) const {
+    std::vector<const Image*> images;
+    for (const std::size_t g : texture.groups) images.push_back(&layers[g][page]);
+    const EncodedImage encoded = texture.encode(images);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const std::size_t g = texture.groups[i];
+      infos[i]->gain = encoded.gain[texture.encoding.luminance ? i : 0];
+      infos[i]->error = measure_encoding(*images[i], texture.decode(encoded, i, m_.groups[g].color),
+                                         c_.receivers[page], m_.groups[g].mean_lux);
+    }
+    std::map<std::string, std::string> text;
+    if (!texture.encoding.luminance) text["sconce:group"] = m_.groups[texture.groups.front()].name;
+    write_layer_file(file, encoded, texture.channels(names_), std::move(text));
+  }
+
   /// The files of a kept layer as they are; false where they must be written anew.
-  bool keep_files(std::size_t g, const KeptLayer& kept, std::string_view folder,
-                  std::vector<LayerInfo>& listed) {
+  bool keep_files(std::size_t g, const KeptLayer& kept, const EncodingChoice& encoding,
+                  std::string_view folder, LayerInfo* listed) {
     const Package from = kept.from->solved();
     const std::vector<GroupInfo>& groups = from.manifest().groups;
-    std::vector<LayerInfo> files;
-    for (const LayerInfo& layer : from.layer_files())
-      if (layer.group == kept.group) files.push_back(layer);
-    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.page < b.page; });
+    const auto info = [&](int page) { return from.layer_info(kept.group, page); };
     // The name is in the files, too.
     if (groups[kept.group].name != m_.groups[g].name || layer_names(groups)[kept.group] != names_[g] ||
-        files.front().encoding != c_.encodings[g])
+        info(0).encoding != encoding.name())
       return false;
-    for (LayerInfo& layer : files) {
-      const fs::path old = from.layer_folder() / layer.file;
-      jobs_.push_back(
-          {fs::path(folder) / layer.file, [old](const fs::path& f) { link_or_copy(old, f); }, {}});
-      layer.group = static_cast<uint32_t>(g);
-      listed.push_back(std::move(layer));
+    for (int page = 0; page < m_.pages; ++page) {
+      listed[page] = info(page);
+      listed[page].group = static_cast<uint32_t>(g);
+      const fs::path old = from.layer_folder() / listed[page].file;
+      jobs_.push_back({fs::path(folder) / listed[page].file,
+                       [old](const fs::path& f) { link_or_copy(old, f); },
+                       {&listed[page]}});
     }
     return true;
   }
@@ -186,15 +228,13 @@ class Writer {
       const auto i = static_cast<std::size_t>(page);
       c_.receivers[i].channels = {"albedo.R", "albedo.G", "albedo.B", "weight"};
       jobs_.push_back({page_file("receivers", page),
-                       [this, i](const fs::path& f) { write_exr(f, c_.receivers[i], PixelType::full); },
-                       {}});
+                       [this, i](const fs::path& f) { write_exr(f, c_.receivers[i], PixelType::full); }});
       for (auto& [images, stem] : {std::pair(&c_.noise, "noise"), {&c_.raw_noise, "raw-noise"}}) {
         if (images->empty() || m_.groups.empty()) continue;
         Image& image = (*images)[i];
         image.channels = names_;
-        jobs_.push_back({page_file(stem, page),
-                         [&image](const fs::path& f) { write_exr(f, image, PixelType::half); },
-                         {}});
+        jobs_.push_back(
+            {page_file(stem, page), [&image](const fs::path& f) { write_exr(f, image, PixelType::half); }});
       }
     }
   }
@@ -203,13 +243,11 @@ class Writer {
     std::size_t count = 0;
     for (const Light& light : c_.scene.lights) {
       if (!std::holds_alternative<SkyLight>(light.shape)) continue;
-      jobs_.push_back({sky_file(count++),
-                       [&light](const fs::path& f) {
+      jobs_.push_back({sky_file(count++), [&light](const fs::path& f) {
                          const Image image = sky_image(light);
-                         const bool fits = largest(image) <= find_encoding("f16").largest;
+                         const bool fits = largest({&image, 1}) <= find_encoding("f16").largest;
                          write_exr(f, image, fits ? PixelType::half : PixelType::full);
-                       },
-                       {}});
+                       }});
     }
   }
 

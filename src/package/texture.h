@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which layers of a page share a texture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "encode/choice.h"
+
+namespace sconce {
+
+/// One group, or up to four whose luminances are its channels.
+struct LayerTexture {
+  EncodingChoice encoding;
+  std::vector<std::size_t> groups;
+
+  /// @param names  layer_names(); @return names of the channels: NAME.R, NAME.G, NAME.B or one NAME.Y per
+  /// group
+  std::vector<std::string> channels(const std::vector<std::string>& names) const;
+  /// @param layers  RGB, one per group
+  EncodedImage encode(const std::vector<const Image*>& layers) const;
+  /// The RGB layer of the i-th of the groups. @param color  its group's, of luminance 1
+  Image decode(const EncodedImage& texture, std::size_t i, const Rgb& color) const;
+};
+
+/// In the order of the groups; a luminance joins the last texture of its encoding that has room.
+std::vector<LayerTexture> share_textures(const std::vector<EncodingChoice>& encodings);
+
+}  // namespace sconce
