@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "encode/choice.h"
+#include "encode/layer_texture.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -118,6 +118,13 @@ class Package {
   const std::filesystem::path& path() const { return path_; }
   /// @throws Error when there is no such group or page
   const LayerInfo& layer_info(std::size_t group, int page) const;
+  /// What layer_files() are, in the order of their first groups, with gains; every page alike.
+  /// @throws Error where pages of a group differ in encoding
+  std::vector<LayerTexture> textures() const;
+  /// One page of such a texture. @throws as encoded()
+  EncodedImage encoded(const LayerTexture& texture, int page) const {
+    return encoded(layer_info(texture.groups.front(), page));
+  }
   /// One of layer_files() as it is stored: R, G, B, or the luminances of all groups that share its file.
   /// @throws Error naming the file when damaged or of another size
   EncodedImage encoded(const LayerInfo& layer) const;

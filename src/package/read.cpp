@@ -145,6 +145,33 @@ EncodedImage Package::encoded(const LayerInfo& layer) const {
   return read_layer_file(layer_folder() / layer.file, shape);
 }
 
+std::vector<LayerTexture> Package::textures() const {
+  std::vector<LayerTexture> textures;
+  std::map<std::string, std::size_t> by_file;  // of page 0
+  for (std::size_t g = 0; g < manifest_.groups.size(); ++g) {
+    const LayerInfo& first = layer_info(g, 0);
+    const auto [known, added] = by_file.emplace(first.file, textures.size());
+    if (added) textures.push_back({parse_encoding(first.encoding), {}, {}});
+    LayerTexture& texture = textures[known->second];
+    texture.gain.resize(static_cast<std::size_t>(manifest_.pages), {1, 1, 1, 1});
+    const auto channel = static_cast<std::size_t>(std::max(0, first.channel));
+    texture.groups.resize(std::max(texture.groups.size(), channel + 1));
+    texture.groups[channel] = g;
+    for (int page = 0; page < manifest_.pages; ++page) {
+      const LayerInfo& layer = layer_info(g, page);
+      if (layer.encoding != first.encoding || layer.channel != first.channel)
+        throw Error(path_.string(), "group '" + manifest_.groups[g].name + "' is encoded otherwise on page " +
+                                        std::to_string(page));
+      std::array<float, 4>& gain = texture.gain[static_cast<std::size_t>(page)];
+      if (first.channel < 0)
+        gain.fill(static_cast<float>(layer.gain));
+      else
+        gain[channel] = static_cast<float>(layer.gain);
+    }
+  }
+  return textures;
+}
+
 const LayerInfo& Package::layer_info(std::size_t group, int page) const {
   for (const LayerInfo& layer : layer_files())
     if (layer.group == group && layer.page == page) return layer;

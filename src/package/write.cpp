@@ -9,11 +9,11 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "encode/choice.h"
+#include "encode/layer_texture.h"
 #include "image/io.h"
 #include "package/glb.h"
 #include "package/layer_file.h"
 #include "package/manifest.h"
-#include "package/texture.h"
 
 namespace fs = std::filesystem;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which layers of a page share a texture.
+// Which layers share a texture, as files, shaders and the software mix see it.
 #pragma once
 
 #include <string>
@@ -13,8 +13,9 @@ namespace sconce {
 struct LayerTexture {
   EncodingChoice encoding;
   std::vector<std::size_t> groups;
+  std::vector<std::array<float, 4>> gain{};  ///< per page; where textures are read: EncodedImage::gain
 
-  /// @param names  layer_names(); @return names of the channels: NAME.R, NAME.G, NAME.B or one NAME.Y per
+  /// @param names  of the groups; @return names of the channels: NAME.R, NAME.G, NAME.B or one NAME.Y per
   /// group
   std::vector<std::string> channels(const std::vector<std::string>& names) const;
   /// @param layers  RGB, one per group

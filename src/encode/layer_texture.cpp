@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "package/texture.h"
+#include "encode/layer_texture.h"
 
 #include <algorithm>
 
@@ -35,7 +35,7 @@ std::vector<LayerTexture> share_textures(const std::vector<EncodingChoice>& enco
     if (open != textures.end())
       open->groups.push_back(g);
     else
-      textures.push_back({encodings[g], {g}});
+      textures.push_back({encodings[g], {g}, {}});
   }
   return textures;
 }

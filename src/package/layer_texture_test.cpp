@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of every encoding through a package.
-#include "package/texture.h"
+#include "encode/layer_texture.h"
 
 #include <gtest/gtest.h>
 

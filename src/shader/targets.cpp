@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of dialects and tiers.
+#include "core/error.h"
+#include "core/text.h"
+#include "shader/composer.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr ShaderTarget kTargets[] = {
+    {"glsl450", "OpenGL 4.5", "#version 450 core\n", true},
+    {"glsl330", "OpenGL 3.3", "#version 330 core\n", false},
+    {"glsl300es", "OpenGL ES 3.0, WebGL 2",
+     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision "
+     "highp "
+     "sampler2DArray;\n",
+     false},
+};
+
+constexpr ShaderTier kTiers[] = {
+    {"full", "floats and blocks, all filtered", true, true, true, true},
+    {"half", "halves, filtered", false, true, false, true},
+    {"unfiltered", "floats, fetched by absolute texel and filtered in the shader", true, true, false, false},
+    {"byte", "8-bit channels only", false, false, false, false},
+};
+
+/// By name; they differ in what they are called.
+template <class Row>
+const Row& find(std::span<const Row> rows, std::string_view name, const char* what) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) {
+    if (row.name == name) return row;
+    names.emplace_back(row.name);
+  }
+  throw UsageError({}, "unknown " + std::string(what) + " '" + std::string(name) + "'", join(names, ", "));
+}
+
+}  // namespace
+
+std::span<const ShaderTarget> shader_targets() {
+  return kTargets;
+}
+const ShaderTarget& find_shader_target(std::string_view name) {
+  return find(shader_targets(), name, "shader target");
+}
+std::span<const ShaderTier> shader_tiers() {
+  return kTiers;
+}
+const ShaderTier& find_shader_tier(std::string_view name) {
+  return find(shader_tiers(), name, "tier");
+}
+
+EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding) {
+  const auto with = [&](const char* name) {
+    return EncodingChoice{&find_encoding(name), encoding.luminance};
+  };
+  const char* const eight_bits = encoding.luminance ? "multi8" : "rgbe8";
+  switch (encoding.encoding->type) {
+    case TexelType::f32:
+      return tier.f32 ? encoding : with(tier.f16 ? "f16" : eight_bits);
+    case TexelType::f16:
+      return tier.f16 ? encoding : with(eight_bits);
+    case TexelType::bc6h:
+      return tier.bc6h ? encoding : with(tier.f16 ? "f16" : eight_bits);
+    case TexelType::u8:
+      break;
+  }
+  return encoding;
+}
+
+}  // namespace sconce
