@@ -148,7 +148,7 @@ TEST_F(MixRender, BadRequestsAreOneLineAndLeaveNothing) {
   expect_error({"render", "a=dim", "-o", out}, 2, "'dim'");
   expect_error({"render", "a=2700K,#ff0000", "-o", out}, 2, "two colours");
   expect_error({"render", "--tone", "agxx", "-o", out}, 2, "agx");
-  expect_error({"render", "--device", "gl", "-o", out}, 2, "cpu");
+  expect_error({"render", "--device", "vulkan", "-o", out}, 2, "auto, cpu, gl");
   expect_error({"render", "--exposure", "1", "--ev100", "1", "-o", out}, 2, "exclude");
   expect_error({"render", "--eye", "1,2,3", "-o", out}, 2, "--target");
   expect_error({"render", "-o", path("x.gif")}, 2, ".png");

@@ -68,12 +68,13 @@ void PictureOptions::declare(Options& options) {
   options.option("--target", &target, "X,Y,Z in metres: look at this");
   options.option("--fov", &fov, "vertical field of view in degrees (default: the camera's)");
   options.option("--size", &size, "WIDTHxHEIGHT, or WIDTH at the camera's aspect (default: 1280)");
-  options.option("--samples", &samples, "per pixel");
+  options.option("--samples", &samples, "per pixel; 1 looks at pixel centres");
   options.option("--exposure", &exposure,
                  "auto, or stops brighter (+1) or darker (-1) than that (default: auto)");
   options.option("--ev100", &ev100, "absolute exposure value at ISO 100; higher is darker");
   options.option("--tone", &tone, "agx, drago, drago2006, reinhard, aces, neutral, linear (default: agx)");
-  options.option("--device", &device, "auto, cpu");
+  options.option("--device", &device,
+                 "auto, cpu, gl (OpenGL); auto draws by OpenGL where there is a graphics device");
 }
 
 void PictureOptions::apply(const Preset& preset) {
@@ -96,8 +97,8 @@ void PictureOptions::check() const {
   if (!exposure.empty() && !ev100.empty()) throw UsageError({}, "--exposure and --ev100 exclude each other");
   exposure_choice();
   if (!tone.empty()) find_tone_mapper(tone);
-  if (device != "auto" && device != "cpu")
-    throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu");
+  if (device != "auto" && device != "cpu" && device != "gl")
+    throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu, gl");
 }
 
 ExposureChoice PictureOptions::exposure_choice() const {
@@ -109,9 +110,14 @@ ExposureChoice PictureOptions::exposure_choice() const {
           !exposure.empty()};
 }
 
-Camera PictureOptions::find_camera(const View& view, const Progress& progress) const {
-  Camera found = eye.empty() ? view.camera(camera, progress)
-                             : look_at(parse_point(eye, "--eye"), parse_point(target, "--target"));
+Camera PictureOptions::find_camera(const Scene& scene, const std::function<Camera()>& otherwise) const {
+  Camera found;
+  if (!eye.empty())
+    found = look_at(parse_point(eye, "--eye"), parse_point(target, "--target"));
+  else if (const Camera* named = sconce::find_camera(scene, camera))
+    found = *named;
+  else
+    found = otherwise();
   if (fov != 0) found.yfov = static_cast<float>(fov * static_cast<double>(kPi) / 180);
   return found;
 }

@@ -2,12 +2,14 @@
 // What `render` is told about its picture: camera, size, exposure, curve; text to values.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "app.h"
+#include "mix/mix.h"
 #include "mix/preset.h"
-#include "picture/render.h"
+#include "scene/lens.h"
 #include "tone/exposure.h"
 
 namespace sconce::app {
@@ -42,7 +44,8 @@ struct PictureOptions {
   /// Everything that can be checked without the package. @throws UsageError
   void check() const;
   ExposureChoice exposure_choice() const;
-  Camera find_camera(const View& view, const Progress& progress) const;
+  /// @param otherwise  gives one where none is asked for and the scene has none
+  Camera find_camera(const Scene& scene, const std::function<Camera()>& otherwise) const;
   PictureParams params(const Camera& camera) const;
 };
 

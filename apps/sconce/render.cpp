@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "picture/render.h"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -12,7 +10,7 @@
 #include "image/io.h"
 #include "mix_options.h"
 #include "picture_options.h"
-#include "tone/apply.h"
+#include "stage.h"
 
 namespace fs = std::filesystem;
 
@@ -30,7 +28,7 @@ std::string default_output(const std::string& package) {
 }
 
 struct Rendered {
-  Image linear, coverage;  ///< cd/m2, before exposure
+  std::unique_ptr<Stage> stage;  ///< with the picture drawn
   Camera camera;
   PictureParams params;
   MixSpec mix;
@@ -41,13 +39,14 @@ Rendered render(const Package& package, const PictureOptions& picture, const Mix
                 const Preset& preset, bool metered, const Progress& progress) {
   Rendered out;
   out.mix = settings.make(preset, package.manifest().groups, progress);
-  const View view(package);
-  out.camera = picture.find_camera(view, progress);
+  out.stage = make_stage(package, picture.device);
+  out.camera =
+      picture.find_camera(out.stage->scene(), [&] { return out.stage->eye_height_camera(progress); });
   out.params = picture.params(out.camera);
   progress.check();
   const std::vector<Image> pages = mix_pages(package, out.mix);
-  if (metered) out.metering = meter(package, view.scene(), out.mix, pages);
-  out.linear = view.render(out.camera, out.mix, pages, out.params, progress, &out.coverage);
+  if (metered) out.metering = meter(package, out.stage->scene(), out.mix, pages);
+  out.stage->draw(out.camera, out.mix, pages, out.params, progress);
   return out;
 }
 
@@ -57,9 +56,7 @@ void write_linear(const std::string& output, Image picture, const Exposure& expo
   write_exr(output, picture, PixelType::full);
 }
 
-void write_toned(const std::string& output, const Image& picture, const Exposure& exposure,
-                 const ToneMapper& tone) {
-  const Image8 toned = tone_map(picture, exposure, tone);
+void write_toned(const std::string& output, const Image8& toned) {
   if (output != "-") return write_png(output, toned);
   const std::vector<unsigned char> bytes = encode_png(toned);
   write_stdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -103,6 +100,7 @@ int run_render(int argc, const char* const* argv) {
   Rendered rendered;
   Exposure exposure;
   std::vector<GroupInfo> groups;
+  std::string device;
   {
     const Progress progress = make_progress(options);
     if (linear && tone_given && tone.name != "linear")
@@ -111,9 +109,12 @@ int run_render(int argc, const char* const* argv) {
     groups = package.manifest().groups;
     rendered = render(package, picture, settings, preset, exposed, progress);
     exposure = exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);
-    if (!coverage.empty()) write_exr(coverage, rendered.coverage, PixelType::half);
-    linear ? write_linear(output, rendered.linear, exposure)
-           : write_toned(output, rendered.linear, exposure, tone);
+    const Stage& stage = *rendered.stage;
+    if (!coverage.empty()) write_exr(coverage, stage.coverage(), PixelType::half);
+    linear ? write_linear(output, stage.linear(), exposure)
+           : write_toned(output, stage.toned(exposure, tone));
+    device = stage.device();
+    rendered.stage.reset();  // before the package
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string exposure_text = exposed ? choice.text() : "none";
@@ -125,6 +126,7 @@ int run_render(int argc, const char* const* argv) {
         {"height", rendered.params.height},
         {"samples", rendered.params.samples},
         {"camera", rendered.camera.name},
+        {"device", device},
         {"tone", linear ? "linear" : std::string(tone.name)},
         {"exposure", {{"mode", exposure_text}, {"scale", exposure.scale}}},
         {"groups", nlohmann::ordered_json::parse(weights_json(groups, rendered.mix))},

@@ -38,4 +38,11 @@ std::vector<Image> mix_pages(const Package& package, const MixSpec& mix) {
   return pages;
 }
 
+void check_pages(const Manifest& m, const MixSpec& mix, std::span<const Image> pages) {
+  bool fits = mix.weights.size() == m.groups.size() && pages.size() == static_cast<std::size_t>(m.pages);
+  for (const Image& page : pages)
+    fits = fits && page.width == m.width && page.height == m.height && page.stride() == 3;
+  if (!fits) throw Error({}, "the mix does not belong to this package");
+}
+
 }  // namespace sconce

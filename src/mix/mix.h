@@ -8,6 +8,8 @@ namespace sconce {
 /// sum_g w_g * E_g of one page, RGB lux. Layers with weight 0 are not read.
 Image mix_page(const Package& package, const MixSpec& mix, int page);
 std::vector<Image> mix_pages(const Package& package, const MixSpec& mix);
+/// @throws Error when the mix or its pages are of another package
+void check_pages(const Manifest& manifest, const MixSpec& mix, std::span<const Image> pages);
 
 /// What automatic exposure and the curves that need it are metered on: the mixed lightmap, never the picture,
 /// so that CPU, GL and web agree and orbiting does not flicker (contract.md, "Exposure").

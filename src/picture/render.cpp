@@ -15,30 +15,6 @@ namespace {
 
 constexpr int kTile = 32;  // pixels
 
-/// Camera rays of a picture; the vertical field of view is the camera's, the horizontal follows from the
-/// picture's shape.
-class Lens {
- public:
-  Lens(const Camera& camera, const PictureParams& params) : eye_(camera.frame[3]) {
-    const float up = std::tan(0.5f * camera.yfov);
-    const float right = up * static_cast<float>(params.width) / static_cast<float>(params.height);
-    // Unit axes: a camera below a scaled node still sees the world unscaled.
-    x_ = 2 * right / static_cast<float>(params.width) * normalize_or(Vec3(camera.frame[0]), Vec3(0));
-    y_ = -2 * up / static_cast<float>(params.height) * normalize_or(Vec3(camera.frame[1]), Vec3(0));
-    const Vec3 forward = normalize_or(-Vec3(camera.frame[2]), Vec3(0));
-    top_left_ = forward - 0.5f * static_cast<float>(params.width) * x_ -
-                0.5f * static_cast<float>(params.height) * y_;
-    const float size = glm::length(eye_) + glm::length(top_left_);
-    if (!(up > 0) || !std::isfinite(size) || x_ == Vec3(0) || y_ == Vec3(0) || forward == Vec3(0))
-      throw Error("camera '" + camera.name + "'", "has no usable frame or field of view");
-  }
-  /// @param p  in pixels from the top left
-  Ray ray(Vec2 p) const { return {eye_, glm::normalize(top_left_ + p.x * x_ + p.y * y_)}; }
-
- private:
-  Vec3 eye_, x_, y_, top_left_;
-};
-
 /// Bilinear between texel centres, clamped at the page's edges.
 Rgb bilinear(const Image& page, Vec2 uv) {
   const auto place = [](float t, int size, int* low, int* high) {
@@ -68,34 +44,20 @@ Rgb weight_of(const MixSpec& mix, Id<LightGroup> group) {
   return group.valid() ? mix.weights[group.value] : Rgb(1);
 }
 
-void check(const Manifest& m, const MixSpec& mix, const std::vector<Image>& pages,
-           const PictureParams& params) {
-  constexpr int kMaxSize = 1 << 16;
-  if (params.width < 1 || params.height < 1 || params.width > kMaxSize || params.height > kMaxSize)
-    throw UsageError(
-        {}, "a picture cannot be " + std::to_string(params.width) + " x " + std::to_string(params.height),
-        "1 to " + std::to_string(kMaxSize));
-  if (params.samples < 1) throw UsageError({}, "a picture needs at least one sample per pixel");
-  bool fits = mix.weights.size() == m.groups.size() && pages.size() == static_cast<std::size_t>(m.pages);
-  for (const Image& page : pages)
-    fits = fits && page.width == m.width && page.height == m.height && page.stride() == 3;
-  if (!fits) throw Error({}, "the mix does not belong to this package");
-}
-
-}  // namespace
-
-Rgb View::illuminance(const Side& side, Vec2 barycentric, const std::vector<Image>& pages) const {
+Rgb illuminance(const LightmapSide& side, Vec2 barycentric, const std::vector<Image>& pages) {
   if (side.page < 0) return Rgb(0);
   const Vec2 uv = (1 - barycentric.x - barycentric.y) * side.uv[0] + barycentric.x * side.uv[1] +
                   barycentric.y * side.uv[2];
   return bilinear(pages[static_cast<std::size_t>(side.page)], uv);
 }
 
+}  // namespace
+
 View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   if (!hit) {
-    for (const Light& light : scene_.lights) {
+    for (const Light& light : scene().lights) {
       if (!std::holds_alternative<SkyLight>(light.shape)) continue;
       const Rgb sky = sky_radiance(light, ray.direction);
       seen.emitter = seen.emitter || !sky.is_black();
@@ -103,19 +65,21 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
     }
     return seen;
   }
-  const Shade surface = shade(scene_, world_, hit.triangle, hit.barycentric);
-  const Rgb light = illuminance((hit.back ? back_ : front_)[hit.triangle], hit.barycentric, pages);
+  const Shade surface = shade(scene(), world(), hit.triangle, hit.barycentric);
+  const Rgb light =
+      illuminance((hit.back ? shown_.back : shown_.front)[hit.triangle], hit.barycentric, pages);
   seen.radiance = surface.receiver_albedo() * light * kInvPi;
-  if (!hit.back || scene_[world_.materials[hit.triangle]].double_sided) {
+  if (!hit.back || scene()[world().materials[hit.triangle]].double_sided) {
     seen.emitter = !surface.emission.is_black();
-    seen.radiance += weight_of(mix, scene_[world_.instances[hit.triangle]].group) * surface.emission;
+    seen.radiance += weight_of(mix, scene()[world().instances[hit.triangle]].group) * surface.emission;
   }
   return seen;
 }
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                    const PictureParams& params, const Progress& progress, Image* coverage) const {
-  check(package_->manifest(), mix, pages, params);
+  params.check();
+  check_pages(package_->manifest(), mix, pages);
   const Lens lens(camera, params);
   Image picture = Image::rgb(params.width, params.height);
   if (coverage != nullptr) *coverage = Image(params.width, params.height, {"coverage"});
@@ -128,8 +92,9 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     Rgb sum;
     int emitters = 0;
     for (int s = 0; s < params.samples; ++s) {
-      const Vec2 inside = Sampler(params.seed, id, static_cast<uint32_t>(s)).next();
-      const Seen seen = look(lens.ray(Vec2(x, y) + inside), mix, pages);
+      const Vec2 inside =
+          params.samples == 1 ? Vec2(0.5f) : Sampler(params.seed, id, static_cast<uint32_t>(s)).next();
+      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

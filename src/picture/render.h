@@ -2,23 +2,13 @@
 // The CPU picture: camera rays, mixed lightmap x base colour, visible emitters following their faders.
 #pragma once
 
-#include <array>
-
 #include "core/progress.h"
 #include "mix/mix.h"
+#include "package/shown_scene.h"
+#include "scene/lens.h"
 #include "trace/tracer.h"
 
 namespace sconce {
-
-struct PictureParams {
-  int width = 1280, height = 720;
-  int samples = 16;  ///< per pixel, box filter of one pixel
-  uint32_t seed = 0;
-};
-
-/// A camera at `eye` that looks at `target`, y up, with Camera's default field of view.
-/// @throws UsageError when the two are one point
-Camera look_at(const Vec3& eye, const Vec3& target);
 
 /// A package ready to be looked at: geometry, rays, lightmap coordinates. Thread-safe once built.
 class View {
@@ -39,44 +29,24 @@ class View {
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr) const;
 
-  /// Without twins: their lightmap coordinates are kept beside the triangles they share.
-  const Scene& scene() const { return scene_; }
-  const World& world() const { return world_; }
+  const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
+  const World& world() const { return shown_.world; }
   /// The named camera; the first one for an empty name; one at eye height (and a warning) where the scene has
   /// none.
   /// @throws UsageError naming the cameras
   Camera camera(std::string_view name, const Progress& progress = {}) const;
 
  private:
-  /// Where one side of a triangle lies in the lightmap.
-  struct Side {
-    int page = -1;
-    std::array<Vec2, 3> uv{};  ///< [0,1], in the order of the World triangle's vertices
-  };
   struct Seen {
     Rgb radiance;  ///< cd/m2
     bool emitter = false;
   };
-
-  /// Of an instance that is shown: its page, and the mesh that holds its back's lightmap coordinates.
-  struct Placement {
-    int page = -1, twin_page = -1;
-    Id<Mesh> twin;
-  };
-
-  static Scene load(const Package& package, std::vector<Placement>* placements);
-  Side front_side(std::size_t triangle) const;
-  Side back_side(std::size_t triangle) const;
-  Rgb illuminance(const Side& side, Vec2 barycentric, const std::vector<Image>& pages) const;
   Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const;
   Camera eye_height_camera() const;
 
   const Package* package_;
-  std::vector<Placement> placements_;  ///< per instance of scene_; filled while scene_ is loaded
-  Scene scene_;
-  World world_;
+  ShownScene shown_;
   Tracer tracer_;
-  std::vector<Side> front_, back_;  ///< per World triangle
 };
 
 }  // namespace sconce

@@ -8,12 +8,12 @@ namespace sconce {
 
 namespace {
 
-constexpr curve::Matrix kInset{{{0.842479062253094f, 0.0784335999999992f, 0.0792237451477643f},
-                                {0.0423282422610123f, 0.878468636469772f, 0.0791661274605434f},
-                                {0.0423756549057051f, 0.0784336f, 0.879142973793104f}}};
-constexpr curve::Matrix kOutset{{{1.19687900512017f, -0.0980208811401368f, -0.0990297440797205f},
-                                 {-0.0528968517574562f, 1.15190312990417f, -0.0989611768448433f},
-                                 {-0.0529716355144438f, -0.0980434501171241f, 1.15107367264116f}}};
+constexpr std::array<Rgb, 3> kInset{Rgb(0.842479062253094f, 0.0784335999999992f, 0.0792237451477643f),
+                                    Rgb(0.0423282422610123f, 0.878468636469772f, 0.0791661274605434f),
+                                    Rgb(0.0423756549057051f, 0.0784336f, 0.879142973793104f)};
+constexpr std::array<Rgb, 3> kOutset{Rgb(1.19687900512017f, -0.0980208811401368f, -0.0990297440797205f),
+                                     Rgb(-0.0528968517574562f, 1.15190312990417f, -0.0989611768448433f),
+                                     Rgb(-0.0529716355144438f, -0.0980434501171241f, 1.15107367264116f)};
 
 constexpr float kBelowGrey = 10.0f, kAboveGrey = 6.5f;  // stops
 constexpr float kLogGrey = -2.47393118833f;             // log2 of 0.18
@@ -31,14 +31,17 @@ float sigmoid(float x) {
   return 0.5f + (above ? y : -y);
 }
 
+float log_coded(float v, const ToneParams&) {
+  const float stops = std::log2(std::max(v, 1e-10f)) - kLogGrey;
+  return sigmoid(std::clamp((stops + kBelowGrey) / (kBelowGrey + kAboveGrey), 0.0f, 1.0f));
+}
+
 }  // namespace
 
-Rgb tone_agx(const Rgb& exposed, const ToneParams&) {
-  const Rgb log_coded = curve::per_channel(kInset * curve::clean(exposed), [](float v) {
-    const float stops = std::log2(std::max(v, 1e-10f)) - kLogGrey;
-    return sigmoid(std::clamp((stops + kBelowGrey) / (kBelowGrey + kAboveGrey), 0.0f, 1.0f));
-  });
-  return curve::per_channel(curve::to_unit(kOutset * log_coded), [](float v) { return std::pow(v, 2.2f); });
+const ToneCurve kAgxCurve{ToneCurve::Kind::channels, log_coded, {}, kInset, kOutset, 2.2f};
+
+Rgb tone_agx(const Rgb& exposed, const ToneParams& params) {
+  return curve::apply(kAgxCurve, exposed, params);
 }
 
 }  // namespace sconce

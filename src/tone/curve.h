@@ -23,24 +23,31 @@ inline Rgb to_unit(const Rgb& c) {
   return {std::clamp(c.r, 0.0f, 1.0f), std::clamp(c.g, 0.0f, 1.0f), std::clamp(c.b, 0.0f, 1.0f)};
 }
 
-/// t = c * l_out / l_in: luminance is preserved for any weights, black stays black; then clamped channel by
-/// channel.
-inline Rgb by_luminance(const Rgb& c, float l_in, float l_out) {
-  return l_in > 0 ? to_unit(c * (l_out / l_in)) : Rgb{};
+/// Rows of a 3 x 3 matrix applied to a colour.
+inline Rgb apply(const std::array<Rgb, 3>& rows, const Rgb& c) {
+  return {luminance(c, rows[0]), luminance(c, rows[1]), luminance(c, rows[2])};
 }
 
-/// Rows of a 3 x 3 matrix applied to a colour.
-struct Matrix {
-  float m[3][3];
-  constexpr Rgb operator*(const Rgb& c) const {
-    return {m[0][0] * c.r + m[0][1] * c.g + m[0][2] * c.b, m[1][0] * c.r + m[1][1] * c.g + m[1][2] * c.b,
-            m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
-  }
-};
-
+/// ToneCurve's definition; luminance is preserved for any weights, black stays black.
+/// @param f  ToneCurve::f, or a table of it
 template <class F>
-Rgb per_channel(const Rgb& c, F f) {
-  return {f(c.r), f(c.g), f(c.b)};
+Rgb apply(const ToneCurve& curve, const Rgb& exposed, F f) {
+  const Rgb c = clean(exposed);
+  Rgb t;
+  if (curve.kind == ToneCurve::Kind::luminance) {
+    const float l = luminance(c, curve.weights);
+    if (l > 0) t = c * (f(l) / l);
+  } else {
+    const Rgb v = apply(curve.before, c);
+    t = apply(curve.after, {f(v.r), f(v.g), f(v.b)});
+  }
+  t = to_unit(t);
+  if (curve.power != 1)
+    t = {std::pow(t.r, curve.power), std::pow(t.g, curve.power), std::pow(t.b, curve.power)};
+  return t;
+}
+inline Rgb apply(const ToneCurve& curve, const Rgb& exposed, const ToneParams& params) {
+  return apply(curve, exposed, [&](float v) { return curve.f(v, params); });
 }
 
 }  // namespace curve
@@ -57,6 +64,8 @@ double drago_luminance(double x, double maximum, double bias);
 double drago_smallest_bias(double maximum);
 /// Reinhard et al. 2002, eq. 4: L (1 + L / white^2) / (1 + L).
 double reinhard_luminance(double l, double white);
+
+extern const ToneCurve kAgxCurve, kDragoCurve, kDrago2006Curve, kReinhardCurve, kAcesCurve;
 
 Rgb tone_agx(const Rgb& exposed, const ToneParams& params);
 Rgb tone_drago(const Rgb& exposed, const ToneParams& params);

@@ -18,24 +18,32 @@ double drago_smallest_bias(double maximum) {
 
 namespace {
 
-Rgb drago(const Rgb& exposed, const ToneParams& params, const Rgb& weights, bool guarded) {
-  const Rgb c = curve::clean(exposed);
-  const float l = luminance(c, weights);
+float drago(float l, const ToneParams& params, bool guarded) {
   const double maximum = std::max(1e-6, double{params.maximum} / params.adaptation);
   const double x = std::min(maximum, double{l} / params.adaptation);
   const double bias =
       guarded ? std::max(double{params.drago_bias}, drago_smallest_bias(maximum)) : params.drago_bias;
-  return curve::by_luminance(c, l, static_cast<float>(drago_luminance(x, maximum, bias)));
+  return static_cast<float>(drago_luminance(x, maximum, bias));
+}
+
+float guarded(float l, const ToneParams& params) {
+  return drago(l, params, true);
+}
+float unguarded(float l, const ToneParams& params) {
+  return drago(l, params, false);
 }
 
 }  // namespace
 
+const ToneCurve kDragoCurve{ToneCurve::Kind::luminance, guarded, kRec709};
+const ToneCurve kDrago2006Curve{ToneCurve::Kind::luminance, unguarded, kRec601};
+
 Rgb tone_drago(const Rgb& exposed, const ToneParams& params) {
-  return drago(exposed, params, kRec709, true);
+  return curve::apply(kDragoCurve, exposed, params);
 }
 
 Rgb tone_drago2006(const Rgb& exposed, const ToneParams& params) {
-  return drago(exposed, params, kRec601, false);
+  return curve::apply(kDrago2006Curve, exposed, params);
 }
 
 }  // namespace sconce

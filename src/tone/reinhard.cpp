@@ -9,12 +9,20 @@ double reinhard_luminance(double l, double white) {
   return l * (1 + l / (white * white)) / (1 + l);
 }
 
-Rgb tone_reinhard(const Rgb& exposed, const ToneParams& params) {
-  const Rgb c = curve::clean(exposed);
-  const float l = luminance(c);
+namespace {
+
+float to_white(float l, const ToneParams& params) {
   // White below 1 would stretch a scene without highlights instead of compressing it.
   const double white = std::max(1.0f, params.maximum);
-  return curve::by_luminance(c, l, static_cast<float>(reinhard_luminance(std::min(double{l}, white), white)));
+  return static_cast<float>(reinhard_luminance(std::min(double{l}, white), white));
+}
+
+}  // namespace
+
+const ToneCurve kReinhardCurve{ToneCurve::Kind::luminance, to_white, kRec709};
+
+Rgb tone_reinhard(const Rgb& exposed, const ToneParams& params) {
+  return curve::apply(kReinhardCurve, exposed, params);
 }
 
 }  // namespace sconce

@@ -8,6 +8,8 @@
 #include "core/error.h"
 #include "tone/apply.h"
 #include "tone/curve.h"
+#include "tone/lut.h"
+#include "tone/test_colors.h"
 
 namespace sconce {
 namespace {
@@ -237,6 +239,27 @@ TEST(Apply, CodesAreSrgb) {
   ASSERT_EQ(out.data.size(), std::size(expected));
   for (std::size_t i = 0; i < out.data.size(); ++i) EXPECT_EQ(out.data[i], expected[i]) << i;
   EXPECT_THROW(tone_map(Image(2, 2, {"Y"}), e, find_tone_mapper("linear")), Error);
+}
+
+TEST(Lut, EqualsEveryCurveThatHasOneWithinHalfACode) {
+  const std::vector<Rgb> colors = test_colors();
+  int tables = 0;
+  for (const ToneMapper& mapper : tone_mappers()) {
+    if (mapper.curve == nullptr) continue;
+    ++tables;
+    for (const float maximum : {1e-4f, 0.3f, 1.0f, 16.0f, 1e5f, 1e9f}) {
+      ToneParams params;
+      params.maximum = maximum;
+      const ToneLut lut = make_tone_lut(mapper, params);
+      for (const Rgb& c : colors) {
+        const Rgb expected = mapper.map(c, params), t = lut.map(c);
+        for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b})
+          ASSERT_NEAR(linear_to_srgb(t.*channel), linear_to_srgb(expected.*channel), 0.5f / 255)
+              << mapper.name << " maximum " << maximum << ": " << c.r << ' ' << c.g << ' ' << c.b;
+      }
+    }
+  }
+  EXPECT_EQ(tables, 5);
 }
 
 }  // namespace

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/geometry.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace sconce::gpu {
+
+namespace {
+
+/// What gpu/surface_vertex.glsl reads; texture transforms are applied already.
+struct Vertex {
+  Vec3 position;
+  Vec2 base, metallic, emission;
+  Vec3 front, back;  ///< lightmap: u, v, page
+};
+static_assert(sizeof(Vertex) == 15 * sizeof(float));
+
+GLenum gl_wrap(sconce::Texture::Wrap mode) {
+  switch (mode) {
+    case sconce::Texture::Wrap::clamp:
+      return GL_CLAMP_TO_EDGE;
+    case sconce::Texture::Wrap::mirror:
+      return GL_MIRRORED_REPEAT;
+    case sconce::Texture::Wrap::repeat:
+      break;
+  }
+  return GL_REPEAT;
+}
+
+std::vector<unsigned char> as_rgba(const Image8& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<unsigned char> out;
+  out.reserve(image.data.size() / channels * 4);
+  for (std::size_t i = 0; i + channels <= image.data.size(); i += channels) {
+    const unsigned char* p = &image.data[i];
+    const bool grey = channels < 3;
+    for (std::size_t c = 0; c < 3; ++c) out.push_back(p[grey ? 0 : c]);
+    out.push_back(channels == 2 ? p[1] : channels == 4 ? p[3] : 255);
+  }
+  return out;
+}
+
+Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
+  const World& world = shown.world;
+  const Material& material = shown.scene[world.materials[triangle]];
+  const uint32_t v = world.triangles[triangle].v[k];
+  const auto place = [&](const TextureUse& use) {
+    return use.texcoord < world.texcoords.size() ? use.transform(world.texcoords[use.texcoord][v])
+                                                 : use.transform(Vec2(0));
+  };
+  const auto in_lightmap = [&](const LightmapSide& side) {
+    return Vec3(side.uv[k], static_cast<float>(side.page));
+  };
+  return {world.positions[v],
+          place(material.base_color_texture),
+          place(material.metallic_roughness_texture),
+          place(material.emission_texture),
+          in_lightmap(shown.front[triangle]),
+          in_lightmap(shown.back[triangle])};
+}
+
+}  // namespace
+
+Geometry::Geometry(const Context& context, const ShownScene& shown)
+    : shown_(&shown), white_(context, {.format = GL_RGBA8}, "white") {
+  const unsigned char white[] = {255, 255, 255, 255};
+  white_.upload(GL_RGBA, GL_UNSIGNED_BYTE, white);
+  upload_textures(context);
+  upload_triangles();
+  context.check("uploading the scene");
+}
+
+Geometry::~Geometry() {
+  glDeleteVertexArrays(1, &layout_);
+  glDeleteBuffers(1, &vertices_);
+}
+
+void Geometry::upload_triangles() {
+  const World& world = shown_->world;
+  const auto group = [&](uint32_t t) {
+    return shown_->scene[world.materials[t]].emits() ? shown_->scene[world.instances[t]].group
+                                                     : Id<LightGroup>();
+  };
+  std::vector<uint32_t> order(world.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return std::tuple(world.materials[a].value, group(a).value) <
+           std::tuple(world.materials[b].value, group(b).value);
+  });
+  std::vector<Vertex> vertices;
+  vertices.reserve(3 * order.size());
+  for (const uint32_t t : order) {
+    if (batches_.empty() || batches_.back().material != world.materials[t] ||
+        batches_.back().group != group(t))
+      batches_.push_back({world.materials[t], group(t), static_cast<GLint>(vertices.size()), 0});
+    for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
+    batches_.back().count += 3;
+  }
+  glCreateBuffers(1, &vertices_);
+  glNamedBufferStorage(vertices_, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                       0);
+  glCreateVertexArrays(1, &layout_);
+  glVertexArrayVertexBuffer(layout_, 0, vertices_, 0, sizeof(Vertex));
+  GLuint attribute = 0, offset = 0;
+  for (const GLint floats : {3, 2, 2, 2, 3, 3}) {
+    glEnableVertexArrayAttrib(layout_, attribute);
+    glVertexArrayAttribFormat(layout_, attribute, floats, GL_FLOAT, GL_FALSE, offset);
+    glVertexArrayAttribBinding(layout_, attribute++, 0);
+    offset += static_cast<GLuint>(floats) * sizeof(float);
+  }
+}
+
+void Geometry::upload_textures(const Context& context) {
+  const Scene& scene = shown_->scene;
+  const auto add = [&](const TextureUse& use, bool srgb) {
+    if (!use.texture || textures_.contains({use.texture.value, srgb})) return;
+    const sconce::Texture& texture = scene[use.texture];
+    if (texture.pixels.data.empty()) return;
+    TextureParams params;
+    params.format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    params.width = texture.pixels.width;
+    params.height = texture.pixels.height;
+    params.filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
+    params.wrap_u = gl_wrap(texture.wrap_u);
+    params.wrap_v = gl_wrap(texture.wrap_v);
+    Texture made(context, params, "texture '" + texture.name + "'");
+    made.upload(GL_RGBA, GL_UNSIGNED_BYTE, as_rgba(texture.pixels).data());
+    textures_.emplace(Use{use.texture.value, srgb}, std::move(made));
+  };
+  for (const Material& material : scene.materials) {
+    add(material.base_color_texture, true);
+    add(material.metallic_roughness_texture, false);
+    if (material.emits()) add(material.emission_texture, true);
+  }
+}
+
+void Geometry::bind(const TextureUse& use, bool srgb, int unit) const {
+  const auto found = use.texture ? textures_.find({use.texture.value, srgb}) : textures_.end();
+  (found == textures_.end() ? white_ : found->second).bind(unit);
+}
+
+void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) const {
+  glBindVertexArray(layout_);
+  surface.set("base_map", 0);
+  surface.set("metallic_map", 1);
+  surface.set("emission_map", 2);
+  for (const Batch& batch : batches_) {
+    const Material& m = shown_->scene[batch.material];
+    bind(m.base_color_texture, true, 0);
+    bind(m.metallic_roughness_texture, false, 1);
+    bind(m.emission_texture, true, 2);
+    surface.set("base_color", m.base_color);
+    surface.set("alpha", m.alpha);
+    surface.set("alpha_cutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f);
+    surface.set("metallic", m.metallic);
+    surface.set("emission", m.emission);
+    surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
+    surface.set("double_sided", m.double_sided ? 1 : 0);
+    glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
+  }
+}
+
+}  // namespace sconce::gpu

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A package's triangles, materials and textures on the graphics device.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "package/shown_scene.h"
+
+namespace sconce::gpu {
+
+/// Every triangle has vertices of its own, for both sides' places in the lightmap: 60 bytes a vertex.
+class Geometry {
+ public:
+  /// Texture units that draw() uses: base colour, metallic, emission.
+  static constexpr int kUnits = 3;
+
+  /// @param shown  must outlive it
+  Geometry(const Context& context, const ShownScene& shown);
+  ~Geometry();
+  Geometry(const Geometry&) = delete;
+  Geometry& operator=(const Geometry&) = delete;
+
+  /// Draws everything with `surface` (gpu/surface.glsl), which is in use.
+  /// @param weights  of the light groups, for what emits
+  void draw(const Program& surface, const std::vector<Rgb>& weights) const;
+
+ private:
+  /// Triangles that share all that is set between draws.
+  struct Batch {
+    Id<Material> material;
+    Id<LightGroup> group;  ///< of what emits
+    GLint first;
+    GLsizei count;
+  };
+  /// A texture as sRGB or as data.
+  using Use = std::pair<uint32_t, bool>;
+
+  void upload_triangles();
+  void upload_textures(const Context& context);
+  void bind(const TextureUse& use, bool srgb, int unit) const;
+
+  const ShownScene* shown_;
+  std::vector<Batch> batches_;
+  std::map<Use, Texture> textures_;
+  Texture white_;
+  GLuint vertices_ = 0, layout_ = 0;
+};
+
+}  // namespace sconce::gpu

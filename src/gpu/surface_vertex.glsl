@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450 core
+// Twin of scene/lens.h: depth runs from 1 at the near plane to 0 infinitely far, rows from the top.
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 base_place;
+layout(location = 2) in vec2 metallic_place;
+layout(location = 3) in vec2 emission_place;
+layout(location = 4) in vec3 front_place;  // u, v, page
+layout(location = 5) in vec3 back_place;
+
+uniform vec3 eye;
+uniform mat3 to_plane;  // inverse of Lens::plane
+uniform vec2 shift;     // of the picture below its sampling points, in pixels
+uniform vec2 size;      // of the picture
+uniform float near;     // m
+
+out vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
+flat out int front_page, back_page;
+
+void main() {
+  base_uv = base_place;
+  metallic_uv = metallic_place;
+  emission_uv = emission_place;
+  front_uv = front_place.xy;
+  back_uv = back_place.xy;
+  front_page = int(front_place.z);
+  back_page = int(back_place.z);
+  vec3 q = to_plane * (position - eye);  // pixel x depth, pixel y depth, depth
+  gl_Position = vec4(2.0 * (q.xy + shift * q.z) / size - q.z, near, q.z);
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/view.h"
+
+#include "core/sobol.h"
+
+namespace sconce::gpu {
+
+namespace {
+
+constexpr std::string_view kSurfaceVertex =
+#include "gpu/surface_vertex.glsl.h"
+    ;
+constexpr std::string_view kSurface =
+#include "gpu/surface.glsl.h"
+    ;
+constexpr std::string_view kSky =
+#include "gpu/sky.glsl.h"
+    ;
+constexpr std::string_view kVersion = "#version 450 core\n";
+constexpr std::string_view kAdd = R"(#version 450 core
+uniform sampler2D pass;
+out vec4 color;
+void main() {
+  color = texelFetch(pass, ivec2(gl_FragCoord.xy), 0);
+}
+)";
+constexpr std::string_view kTone = R"(
+uniform sampler2D sum;
+uniform float scale;
+uniform float maximum, adaptation, drago_bias;
+out vec4 color;
+void main() {
+  vec3 exposed = texelFetch(sum, ivec2(gl_FragCoord.xy), 0).rgb * scale;
+  color = vec4(linear_to_srgb(tone_map(exposed, ToneParams(maximum, adaptation, drago_bias))), 1.0);
+}
+)";
+
+}  // namespace
+
+/// One pass and the sum of all.
+struct View::Targets {
+  Targets(const Context& context, int width, int height)
+      : color(context, {.format = GL_RGBA32F, .width = width, .height = height}, "picture"),
+        depth(context,
+              {.format = GL_DEPTH_COMPONENT32F, .width = width, .height = height, .filter = GL_NEAREST},
+              "picture"),
+        sum(context, {.format = GL_RGBA32F, .width = width, .height = height}, "picture"),
+        pass(color, 0, &depth),
+        total(sum, 0) {}
+  int width() const { return color.params().width; }
+  int height() const { return color.params().height; }
+
+  Texture color, depth, sum;
+  Framebuffer pass, total;
+};
+
+View::View(const Context& context, const ShownScene& shown)
+    : context_(&context),
+      shown_(&shown),
+      geometry_(context, shown),
+      sky_("sky", whole_target_vertex(), kSky),
+      add_("sum of passes", whole_target_vertex(), kAdd) {
+  glCreateVertexArrays(1, &nothing_);
+  for (const Light& light : shown.scene.lights) {
+    skies_.emplace_back();
+    const auto* sky = std::get_if<SkyLight>(&light.shape);
+    if (sky == nullptr) continue;
+    const bool constant = sky->image.data.empty();
+    const float one[] = {1, 1, 1};
+    skies_.back().emplace(context,
+                          TextureParams{.format = GL_RGB32F,
+                                        .width = constant ? 1 : sky->image.width,
+                                        .height = constant ? 1 : sky->image.height,
+                                        .filter = GL_NEAREST},
+                          "sky '" + light.name + "'");
+    skies_.back()->upload(GL_RGB, GL_FLOAT, constant ? one : sky->image.data.data());
+  }
+  context.check("uploading the skies");
+}
+
+View::~View() {
+  glDeleteVertexArrays(1, &nothing_);
+}
+
+void View::draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shift) const {
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glBlendEquationSeparate(GL_FUNC_ADD, GL_MAX);
+  glBindVertexArray(nothing_);
+  sky_.use();
+  sky_.set("plane", lens.plane());
+  sky_.set("shift", shift);
+  sky_.set("image", 0);
+  for (std::size_t i = 0; i < skies_.size(); ++i) {
+    if (!skies_[i]) continue;
+    const Light& light = shown_->scene.lights[i];
+    skies_[i]->bind(0);
+    sky_.set("to_local", glm::transpose(Mat3(light.frame)));
+    sky_.set("scale", light.intensity);
+    sky_.set("weight", light.group ? weights.at(light.group.value) : Rgb(1));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDisable(GL_BLEND);
+}
+
+void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const LightSource& light,
+                const PictureParams& params, const Progress& progress) {
+  params.check();
+  const Lens lens(camera, params);
+  if (!targets_ || targets_->width() != params.width || targets_->height() != params.height)
+    targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
+  samples_ = params.samples;
+  const Program surface("surface", kSurfaceVertex,
+                        std::string(kVersion) + light.glsl() + std::string(kSurface));
+  const Bounds& bounds = shown_->world.bounds;
+  surface.set("eye", lens.eye());
+  surface.set("to_plane", Mat3(glm::inverse(glm::dmat3(lens.plane()))));
+  surface.set("size", Vec2(params.width, params.height));
+  // Depth is a float that falls from 1 to 0, so its steps are the same fraction of any distance.
+  surface.set("near", 1e-5f * glm::length(bounds.hi - bounds.lo));
+  light.bind(surface, Geometry::kUnits);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glDepthFunc(GL_GREATER);
+  // Rows run downwards, which turns windings round.
+  glFrontFace(glm::determinant(lens.plane()) > 0 ? GL_CW : GL_CCW);
+
+  targets_->total.clear();
+  for (int s = 0; s < params.samples; ++s) {
+    progress.check();
+    progress.at("render", static_cast<uint64_t>(s), static_cast<uint64_t>(params.samples));
+    const Vec2 shift =
+        params.samples == 1 ? Vec2(0) : Vec2(0.5f) - Sampler(params.seed, 0, static_cast<uint32_t>(s)).next();
+    targets_->pass.use();
+    targets_->pass.clear();
+    draw_sky(lens, weights, shift);
+    glEnable(GL_DEPTH_TEST);
+    surface.use();
+    surface.set("shift", shift);
+    geometry_.draw(surface, weights);
+    glDisable(GL_DEPTH_TEST);
+
+    targets_->total.use();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glBlendEquation(GL_FUNC_ADD);
+    glBindVertexArray(nothing_);
+    add_.use();
+    add_.set("pass", 0);
+    targets_->color.bind(0);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    context_->check("drawing the picture");
+  }
+}
+
+std::vector<float> View::sums() const {
+  std::vector<float> rgba(4 * static_cast<std::size_t>(targets_->width()) *
+                          static_cast<std::size_t>(targets_->height()));
+  targets_->total.read(GL_RGBA, GL_FLOAT, rgba.data());
+  context_->check("reading the picture");
+  for (float& v : rgba) v /= static_cast<float>(samples_);
+  return rgba;
+}
+
+Image View::linear() const {
+  const std::vector<float> rgba = sums();
+  Image out = Image::rgb(targets_->width(), targets_->height());
+  for (std::size_t i = 0; i < out.pixels(); ++i) std::copy_n(&rgba[4 * i], 3, &out.data[3 * i]);
+  return out;
+}
+
+Image View::coverage() const {
+  const std::vector<float> rgba = sums();
+  Image out(targets_->width(), targets_->height(), {"coverage"});
+  for (std::size_t i = 0; i < out.pixels(); ++i) out.data[i] = rgba[4 * i + 3];
+  return out;
+}
+
+Image8 View::toned(const Exposure& exposure, const ToneMapper& mapper) const {
+  const Texture display(
+      *context_, {.format = GL_RGBA8, .width = targets_->width(), .height = targets_->height()}, "picture");
+  const Framebuffer target(display, 0);
+  const Program tone("tone curve " + std::string(mapper.name), whole_target_vertex(),
+                     std::string(kVersion) + tone_glsl(mapper) + std::string(kTone));
+  tone.use();
+  tone.set("sum", 0);
+  tone.set("scale", exposure.scale / static_cast<float>(samples_));
+  tone.set("maximum", exposure.params.maximum);
+  tone.set("adaptation", exposure.params.adaptation);
+  tone.set("drago_bias", exposure.params.drago_bias);
+  targets_->sum.bind(0);
+  target.use();
+  glBindVertexArray(nothing_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  Image8 out{targets_->width(), targets_->height(), 3, {}};
+  out.data.resize(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+  target.read(GL_RGB, GL_UNSIGNED_BYTE, out.data.data());
+  context_->check("tone mapping");
+  return out;
+}
+
+}  // namespace sconce::gpu

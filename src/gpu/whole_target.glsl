@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450 core
+
+void main() {
+  gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures by OpenGL equal the CPU's: within 1/255 after tone mapping on at least 99.5 % of the pixels
+// (silhouettes), at pixel centres.
+#include <gtest/gtest.h>
+
+#include "core/test_data.h"
+#include "image/io.h"
+#include "package/test_package.h"
+#include "process.h"
+#include "stage.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+namespace {
+
+class GlPictures : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void bake(const fs::path& scene, const char* atlas) {
+    const auto outcome =
+        test::run_sconce({"bake", scene.string(), "-o", path("x.sconce"), "--atlas", atlas, "--samples", "2",
+                          "--solver", "path", "--bounces", "1", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  /// By every curve, through the scene's first or the named camera.
+  void expect_alike(const std::vector<std::string>& faders = {}, const std::string& camera = {}) const {
+    const Package package = Package::open(path("x.sconce"));
+    const MixSpec mix = make_mix(package.manifest().groups, faders, "", {});
+    const std::vector<Image> pages = mix_pages(package, mix);
+    const Metering metering = meter(package, mix, pages);
+    const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
+    const auto cpu = app::make_stage(package, "cpu"), gl = app::make_stage(package, "gl");
+    for (const auto& stage : {cpu.get(), gl.get()})
+      stage->draw(*find_camera(stage->scene(), camera), mix, pages,
+                  {.width = 320, .height = 240, .samples = 1}, {});
+    for (const ToneMapper& mapper : tone_mappers())
+      EXPECT_GE(share_alike(cpu->toned(exposure, mapper), gl->toned(exposure, mapper)), 0.995) << mapper.name;
+    const Image a = cpu->coverage(), b = gl->coverage();
+    std::size_t alike = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) alike += a.data[i] == b.data[i] ? 1 : 0;
+    EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(a.pixels())) << "coverage";
+  }
+  /// Of the pixels whose codes differ by at most 1.
+  static double share_alike(const Image8& a, const Image8& b) {
+    EXPECT_EQ(a.data.size(), b.data.size());
+    std::size_t alike = 0, lit = 0;
+    for (std::size_t i = 0; i < a.data.size(); i += 3) {
+      int worst = 0;
+      for (std::size_t c = i; c < i + 3; ++c)
+        worst = std::max(worst, std::abs(int{a.data[c]} - int{b.data[c]}));
+      alike += worst <= 1 ? 1 : 0;
+      lit += a.data[i] > 32 ? 1 : 0;
+    }
+    EXPECT_GT(3 * lit, a.data.size() / 10) << "too dark to compare";
+    return static_cast<double>(3 * alike) / static_cast<double>(a.data.size());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(GlPictures, OurBathroom) {
+  bake(fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb", "256");
+  expect_alike();
+  expect_alike({"window=off", "mirror=2700K,+2ev"}, "shower");
+}
+
+// The block's sides lie in the source twice, one on the other: either may be seen.
+TEST_F(GlPictures, CornellWithTwoLights) {
+  SCONCE_NEEDS_DATA(test_data() / "glb/cornell-two-lights.glb");
+  bake(test_data() / "glb/cornell-two-lights.glb", "128");
+  expect_alike();
+}
+
+// A sky of an image behind the window.
+TEST_F(GlPictures, Kitchen) {
+  SCONCE_NEEDS_DATA(test_data() / "glb/luxcore-kitchen.glb");
+  bake(test_data() / "glb/luxcore-kitchen.glb", "256");
+  expect_alike();
+}
+
+// Textures with transforms, masks.
+TEST_F(GlPictures, TexturedBathroom) {
+  SCONCE_NEEDS_DATA(test_data() / "glb/contemporary-bathroom.glb");
+  bake(test_data() / "glb/contemporary-bathroom.glb", "256");
+  expect_alike();
+}
+
+TEST_F(GlPictures, VerbWritesLinearPicturesAndCoverage) {
+  write_package(path("x.sconce"), test_package(2, 1, 8, 8));
+  for (const std::string device : {"cpu", "gl"}) {
+    const auto outcome =
+        test::run_sconce({"render", path("x.sconce"), "--device", device, "--size", "32", "--samples", "4",
+                          "-o", path(device + ".exr"), "--coverage", path(device + ".c.exr"), "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("\"device\": \"cpu\"") != std::string::npos, device == "cpu") << outcome.out;
+  }
+  const Image a = read_exr(path("cpu.exr")), b = read_exr(path("gl.exr"));
+  ASSERT_EQ(a.data.size(), b.data.size());
+  // The layers are linear across the wall, so that samples at other places of a pixel have about the same
+  // mean.
+  for (std::size_t i = 0; i < a.data.size(); ++i) ASSERT_NEAR(b.data[i], a.data[i], 2e-3f * a.data[i]);
+  EXPECT_EQ(read_exr(path("gl.c.exr")).data, read_exr(path("cpu.c.exr")).data);
+}
+
+}  // namespace
+}  // namespace sconce
