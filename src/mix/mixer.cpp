@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mix/mixer.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace sconce {
+
+namespace {
+
+std::vector<std::vector<EncodedImage>> read_textures(const Package& package,
+                                                     const std::vector<LayerTexture>& textures) {
+  const auto pages = static_cast<std::size_t>(package.manifest().pages);
+  std::vector<std::vector<EncodedImage>> all(textures.size(), std::vector<EncodedImage>(pages));
+  parallel_for(textures.size() * pages, 1, [&](std::size_t i) {
+    all[i / pages][i % pages] = package.encoded(textures[i / pages], static_cast<int>(i % pages));
+  });
+  return all;
+}
+
+std::vector<Rgb> group_colors(const Manifest& m) {
+  std::vector<Rgb> colors;
+  for (const GroupInfo& group : m.groups) colors.push_back(group.color);
+  return colors;
+}
+
+}  // namespace
+
+Mixer::Mixer(const Package& package)
+    : Mixer(package.textures(), read_textures(package, package.textures()),
+            group_colors(package.manifest())) {}
+
+Mixer::Mixer(std::vector<LayerTexture> textures, std::vector<std::vector<EncodedImage>> pages,
+             std::vector<Rgb> colors)
+    : colors_(std::move(colors)) {
+  for (std::size_t t = 0; t < textures.size(); ++t) {
+    const std::size_t groups = textures[t].groups.size();
+    // Blocks are unpacked once; what they hold are halves.
+    if (pages[t].front().encoding->type == TexelType::bc6h)
+      for (EncodedImage& page : pages[t]) page = encode(decode(page), find_encoding("f16"));
+    textures_.push_back({std::move(textures[t]), WeighTables(*pages[t].front().encoding), std::move(pages[t]),
+                         std::vector<Rgb>(groups)});
+  }
+  if (textures_.empty()) return;
+  for (const EncodedImage& page : textures_.front().pages) {
+    sum_.push_back(Image::rgb(page.width, page.height));
+    sum_.back().text["sconce:unit"] = "lux";
+  }
+}
+
+std::size_t Mixer::bytes() const {
+  std::size_t bytes = 0;
+  for (const Texture& texture : textures_)
+    for (const EncodedImage& page : texture.pages) bytes += page.data.size();
+  return bytes;
+}
+
+const std::vector<Image>& Mixer::mix(const MixSpec& mix) {
+  if (mix.weights.size() != colors_.size())
+    throw Error({}, "the mix has another number of groups than the package");
+  std::vector<const Texture*> changed, lit;
+  std::vector<std::vector<Rgb>> differences, weights;
+  for (Texture& texture : textures_) {
+    std::vector<Rgb> now, change;
+    for (std::size_t i = 0; i < texture.layout.groups.size(); ++i) {
+      const std::size_t g = texture.layout.groups[i];
+      now.push_back(texture.layout.encoding.luminance ? mix.weights[g] * colors_[g] : mix.weights[g]);
+      change.push_back(now.back() - texture.weights[i]);
+    }
+    const auto any = [](const std::vector<Rgb>& all) {
+      return std::any_of(all.begin(), all.end(), [](const Rgb& w) { return !w.is_black(); });
+    };
+    if (any(change)) changed.push_back(&texture), differences.push_back(change);
+    texture.weights = now;
+    if (any(now)) lit.push_back(&texture), weights.push_back(std::move(now));
+  }
+  const bool whole = updates_ < 0 || updates_ >= kRefresh || changed.size() >= lit.size();
+  updates_ = whole ? 0 : updates_ + 1;
+  whole ? add(lit, weights, true) : add(changed, differences, false);
+  return sum_;
+}
+
+void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<std::vector<Rgb>>& weights,
+                bool clear) {
+  constexpr int kBand = 4;  // rows: the sum stays in the cache while textures stream by
+  bytes_read_ = 0;
+  for (const Texture* texture : textures)
+    for (const EncodedImage& page : texture->pages) bytes_read_ += page.data.size();
+  for (std::size_t page = 0; page < sum_.size(); ++page) {
+    Image& sum = sum_[page];
+    const std::size_t row = 3 * static_cast<std::size_t>(sum.width);
+    parallel_for(static_cast<std::size_t>((sum.height + kBand - 1) / kBand), 4, [&](std::size_t band) {
+      const int first = static_cast<int>(band) * kBand, rows = std::min(kBand, sum.height - first);
+      float* to = &sum.data[static_cast<std::size_t>(first) * row];
+      if (clear) std::fill_n(to, row * static_cast<std::size_t>(rows), 0.0f);
+      for (std::size_t i = 0; i < textures.size(); ++i)
+        add_weighted(textures[i]->tables, textures[i]->pages[page], first, rows, weights[i],
+                     textures[i]->layout.encoding.luminance, to);
+    });
+  }
+}
+
+}  // namespace sconce
