@@ -138,8 +138,4 @@ BENCHMARK_CAPTURE(mix_all, multi8, "multi8")
     ->Arg(4)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
-    ->ArgName("groups")
-    ->Arg(4)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
 BENCHMARK(mix_one)->ArgName("groups")->Arg(4)->Arg(16)->UseRealTime()->Unit(benchmark::kMillisecond);
