@@ -52,10 +52,11 @@ inline std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// `sconce ARGS...`. @param prefix  shell text before it, e.g. "ulimit -f 10;"
-inline Outcome run_sconce(const std::vector<std::string>& args, const std::string& prefix = {}) {
+/// `PROGRAM ARGS...`. @param prefix  shell text before it, e.g. "ulimit -f 10;"
+inline Outcome run_program(const std::string& program, const std::vector<std::string>& args,
+                           const std::string& prefix = {}) {
   const TempFolder folder;
-  std::string command = prefix + " " + shell_quoted(SCONCE_PROGRAM);
+  std::string command = prefix + " " + shell_quoted(program);
   for (const std::string& arg : args) command += " " + shell_quoted(arg);
   command += " >" + shell_quoted((folder / "out").string()) + " 2>" + shell_quoted((folder / "err").string());
   const int status = std::system(command.c_str());
@@ -64,6 +65,10 @@ inline Outcome run_sconce(const std::vector<std::string>& args, const std::strin
   outcome.out = read_file(folder / "out");
   outcome.err = read_file(folder / "err");
   return outcome;
+}
+
+inline Outcome run_sconce(const std::vector<std::string>& args, const std::string& prefix = {}) {
+  return run_program(SCONCE_PROGRAM, args, prefix);
 }
 
 /// `sconce ARGS...` in the background. @return its process
