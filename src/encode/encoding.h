@@ -34,7 +34,7 @@ struct Encoding {
   float smallest, largest;    ///< range at gain 1; larger values are clamped, smaller ones lose precision
   bool is_signed;             ///< unsigned encodings clamp negative values to 0 and refuse signed bases
   bool per_channel;           ///< every channel alone, so that four groups' luminances may share a texture
-  bool filters;               ///< codes may be interpolated: decoding is linear, or the hardware's own
+  bool filters;               ///< texture units may interpolate: floats, or blocks that they decode
   bool has_gain;              ///< gain = largest / the image's largest value, per channel or for all together
   TexelType type;
   int stored_channels;    ///< of a texture; 0 = those of the image

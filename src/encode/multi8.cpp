@@ -47,7 +47,7 @@ constexpr Encoding kEncodingMulti8{
     .largest = 1,
     .is_signed = false,
     .per_channel = true,
-    .filters = true,
+    .filters = false,  // linear, but texture units may round interpolated 8-bit channels to 8 bits
     .has_gain = true,
     .type = TexelType::u8,
     .stored_channels = 0,

@@ -107,6 +107,10 @@ const Capabilities& Context::capabilities() const {
   return state_->capabilities;
 }
 
+void Context::pretend(const Capabilities& capabilities) {
+  state_->capabilities = capabilities;
+}
+
 void Context::check(const std::string& doing) const {
   if (glGetGraphicsResetStatus() != GL_NO_ERROR)
     throw Error("OpenGL", "the graphics device was lost (reset or removed) while " + doing);

@@ -33,6 +33,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const Capabilities& capabilities() const;
+  /// Lets the device seem to be another one, for tests of smaller ones.
+  void pretend(const Capabilities& capabilities);
   /// @throws Error with the first thing that OpenGL complained of since the last call, or that the context is
   /// lost
   /// @param doing  what was being done

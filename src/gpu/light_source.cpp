@@ -21,18 +21,35 @@ MixedPages::MixedPages(const Context& context, const std::vector<Image>& pages)
   context.check("uploading the lightmap");
 }
 
-std::string MixedPages::glsl() const {
-  return R"(uniform sampler2DArray lightmap;
-
-vec3 illuminance(vec2 uv, int page) {
-  return texture(lightmap, vec3(uv, float(page))).rgb;
+std::string lightmap_glsl(bool filter) {
+  const std::string head = "uniform sampler2DArray lightmap;\nuniform float lightmap_scale;\n\n";
+  if (filter)
+    return head + R"(vec3 illuminance(vec2 uv, int page) {
+  return lightmap_scale * texture(lightmap, vec3(uv, float(page))).rgb;
 }
 )";
+  return head + R"(vec3 illuminance(vec2 uv, int page) {
+  ivec2 last = textureSize(lightmap, 0).xy - 1;
+  vec2 at = clamp(uv * vec2(last + 1) - 0.5, vec2(0.0), vec2(last));
+  ivec2 low = ivec2(at), high = min(low + 1, last);
+  vec2 part = at - vec2(low);
+  vec3 top = mix(texelFetch(lightmap, ivec3(low, page), 0).rgb,
+                 texelFetch(lightmap, ivec3(high.x, low.y, page), 0).rgb, part.x);
+  vec3 bottom = mix(texelFetch(lightmap, ivec3(low.x, high.y, page), 0).rgb,
+                    texelFetch(lightmap, ivec3(high, page), 0).rgb, part.x);
+  return lightmap_scale * mix(top, bottom, part.y);
+}
+)";
+}
+
+std::string MixedPages::glsl() const {
+  return lightmap_glsl(true);
 }
 
 void MixedPages::bind(const Program& program, int first_unit) const {
   texture_.bind(first_unit);
   program.set("lightmap", first_unit);
+  program.set("lightmap_scale", 1.0f);
 }
 
 }  // namespace sconce::gpu

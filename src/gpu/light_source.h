@@ -20,6 +20,10 @@ class LightSource {
   virtual void bind(const Program& program, int first_unit) const = 0;
 };
 
+/// illuminance() by `uniform sampler2DArray lightmap` of mixed pages, times `uniform float lightmap_scale`.
+/// @param filter  by the texture unit, or in the shader
+std::string lightmap_glsl(bool filter);
+
 /// Pages that are mixed already.
 class MixedPages : public LightSource {
  public:

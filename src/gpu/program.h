@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/rgb.h"
 #include "core/vec.h"
@@ -33,6 +34,9 @@ class Program {
   }
   void set(const char* uniform, const Rgb& c) const {
     glProgramUniform3f(handle_, at(uniform), c.r, c.g, c.b);
+  }
+  void set(const char* uniform, const std::vector<Rgb>& all) const {
+    glProgramUniform3fv(handle_, at(uniform), static_cast<GLsizei>(all.size()), &all.front().r);
   }
   void set(const char* uniform, const Mat3& m) const {
     glProgramUniformMatrix3fv(handle_, at(uniform), 1, GL_FALSE, &m[0][0]);

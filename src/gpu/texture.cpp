@@ -34,4 +34,14 @@ void Texture::upload(GLenum format, GLenum type, const void* pixels, int layer) 
     glTextureSubImage2D(handle_, 0, 0, 0, params_.width, params_.height, format, type, pixels);
 }
 
+void Texture::upload_blocks(const void* blocks, std::size_t bytes, int layer) const {
+  const auto size = static_cast<GLsizei>(bytes);
+  if (params_.layers > 0)
+    glCompressedTextureSubImage3D(handle_, 0, 0, 0, layer, params_.width, params_.height, 1, params_.format,
+                                  size, blocks);
+  else
+    glCompressedTextureSubImage2D(handle_, 0, 0, 0, params_.width, params_.height, params_.format, size,
+                                  blocks);
+}
+
 }  // namespace sconce::gpu

@@ -31,6 +31,8 @@ class Texture {
 
   /// The whole of one layer. @param pixels  rows from the first one on, tightly packed
   void upload(GLenum format, GLenum type, const void* pixels, int layer = 0) const;
+  /// The same for block formats. @param bytes  of the layer
+  void upload_blocks(const void* blocks, std::size_t bytes, int layer = 0) const;
   void bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), handle_); }
 
   GLuint handle() const { return handle_; }

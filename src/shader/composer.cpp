@@ -11,8 +11,6 @@ namespace sconce {
 
 namespace {
 
-constexpr int kReserved = 4;  // texture units that the host keeps: its own maps, a tone table
-
 /// "v.rgb" of a texture's value times the weights of its groups.
 constexpr const char* kChannel[] = {"r", "g", "b", "a"};
 
@@ -57,7 +55,8 @@ class Composer {
   void share_samplers() {
     int plain = 0;
     for (const EncodingChoice& choice : encodings_) plain += choice.encoding->planes;
-    arrays_ = plain > spec_.units - kReserved;
+    arrays_ = plain > spec_.units - kReservedUnits ||
+              (spec_.form == ShaderSpec::Form::functions && spec_.pages > 1);
     for (std::size_t t = 0; t < encodings_.size(); ++t) {
       const EncodingChoice& choice = encodings_[t];
       std::size_t s = samplers_.size();

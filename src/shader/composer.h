@@ -37,6 +37,9 @@ const ShaderTier& find_shader_tier(std::string_view name);
 /// What is uploaded for an encoding: itself, halves for full floats, or 8-bit codes that hold as much.
 EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding);
 
+/// Texture units that a composed shader leaves to its host: maps of the surface, a tone table.
+inline constexpr int kReservedUnits = 4;
+
 struct ShaderSpec {
   enum class Form : uint8_t {
     functions,  ///< vec3 sconce_illuminance(vec2 uv, int page) in lux, bilinear; no version line, no main
@@ -47,8 +50,8 @@ struct ShaderSpec {
   std::vector<LayerTexture> textures;  ///< with gains for every page
   std::size_t groups = 0;              ///< weights
   int pages = 1;
-  int units =
-      16;  ///< texture units of a fragment shader, at least 8; beyond, textures of a kind share arrays
+  int units = 16;  ///< texture units of a fragment shader, at least 8; beyond, textures of a kind share
+                   ///< arrays, and always where functions serve several pages
   const ShaderTarget* target = nullptr;
   const ShaderTier* tier = nullptr;
   const ToneMapper* tone = nullptr;  ///< of a picture

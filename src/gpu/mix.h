@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two ways to mix layers on the device: in every pixel that looks at them, or the whole atlas once per change
+// of a fader.
+#pragma once
+
+#include <memory>
+
+#include "gpu/framebuffer.h"
+#include "gpu/layer_pass.h"
+#include "gpu/light_source.h"
+
+namespace sconce::gpu {
+
+/// Every look-up mixes all layers. Nothing to do when faders move; needs all layers in one shader.
+class PixelMix : public LightSource {
+ public:
+  /// @throws Error where one shader cannot read all of them
+  PixelMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier);
+
+  void set(const std::vector<Rgb>& weights) { weights_ = weights; }
+  std::string glsl() const override;
+  void bind(const Program& program, int first_unit) const override;
+
+ private:
+  std::vector<LayerPass> passes_;
+  std::vector<Rgb> weights_;
+};
+
+/// Mixes to a float page, from any number of layers; look-ups then cost the same for any number.
+class AtlasMix : public LightSource {
+ public:
+  enum class Form : uint8_t { fragment, compute };
+
+  /// @throws Error where the tier has no float textures, or the form cannot mix so many layers
+  AtlasMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier,
+           Form form = Form::fragment);
+  ~AtlasMix() override;
+
+  /// All pages. On the device it is done when that comes to it.
+  void mix(const std::vector<Rgb>& weights) const;
+  std::size_t passes() const { return passes_.size(); }
+  /// RGB lux, for tests.
+  std::vector<Image> read() const;
+  std::string glsl() const override;
+  void bind(const Program& program, int first_unit) const override;
+
+ private:
+  void draw_page(int page, const std::vector<Rgb>& weights) const;
+  void compute_page(int page, const std::vector<Rgb>& weights) const;
+
+  const Context* context_;
+  const ShaderTier* tier_;
+  Form form_;
+  std::vector<LayerPass> passes_;
+  std::vector<std::unique_ptr<Program>> programs_;  ///< per pass
+  Texture pages_;
+  float scale_;  ///< stored is this times lux
+  GLuint nothing_ = 0;
+};
+
+}  // namespace sconce::gpu
