@@ -16,7 +16,7 @@ struct WeighTables {
     f32,
     f16,
     table,   ///< value[code]
-    pair,    ///< value[1] * high + low[1] * low: two planes that decode linearly
+    pair,    ///< value[1] * high + low[1] * low: two planes, which decode linearly (a test holds them to it)
     shared,  ///< value[mantissa] * low[alpha]
     none,    ///< blocks have no codes of single texels
   } kind = Kind::none;

@@ -26,7 +26,7 @@ WeighTables::WeighTables(const Encoding& e) {
   if (e.per_channel && e.planes == 1) {
     kind = Kind::table;
     for (std::size_t i = 0; i < 256; ++i) value[i] = value_of(e, {code(i)});
-  } else if (e.per_channel && e.planes == 2 && e.filters) {
+  } else if (e.per_channel && e.planes == 2) {
     kind = Kind::pair;
     value[1] = value_of(e, {code(1), code(0)});
     low[1] = value_of(e, {code(0), code(1)});
