@@ -113,9 +113,9 @@ TEST(Luminaire, FarAwayEveryOpeningIsAPoint) {
       const Vec2 u = sobol_pair(i, 0, 9);
       const float z = 1.8f * u.x - 0.9f, r = std::sqrt(1 - z * z);
       const Vec3 d(r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z);
-      const double expected = point.lux(4.9f * d, -d);
-      EXPECT_NEAR(rig.lux(4.9f * d, -d, 4096), expected, 0.02 * expected + 0.02)
-          << d.x << " " << d.y << " " << d.z;
+      // The near side of 0.2 m is up to 0.1 m closer than the centre: 0.4 % at 49 m, and the table bends.
+      const double expected = point.lux(49.0f * d, -d);
+      EXPECT_NEAR(rig.lux(49.0f * d, -d, 4096) / expected, 1, 0.01) << d.x << " " << d.y << " " << d.z;
     }
   }
 }
