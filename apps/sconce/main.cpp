@@ -23,6 +23,7 @@ constexpr Verb kVerbs[] = {
     {"merge", "shards of one bake to a package", run_merge},
     {"mix", "a package and group settings to one lightmap", run_mix},
     {"render", "a package and group settings to a picture", run_render},
+    {"luminaire", "measured lamps: info, check, convert", run_luminaire},
     {"diff", "how far two images differ", run_diff},
 };
 
