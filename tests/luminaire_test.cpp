@@ -127,9 +127,9 @@ TEST(LuminaireVerb, BadInput) {
       run_sconce({"luminaire", "info", (data / "ies/ies_rescale/Truncated Profile - 01.IES").string()});
   EXPECT_EQ(cut.code, 1);
   EXPECT_NE(cut.err.find("Truncated Profile - 01.IES:25: ends before"), std::string::npos) << cut.err;
-  const auto action = run_sconce({"luminaire", "inof"});
+  const auto action = run_sconce({"luminaire", "chek"});
   EXPECT_EQ(action.code, 2);
-  EXPECT_NE(action.err.find("did you mean 'info'?"), std::string::npos) << action.err;
+  EXPECT_NE(action.err.find("did you mean 'check'?"), std::string::npos) << action.err;
   EXPECT_EQ(
       run_sconce({"luminaire", "convert", (data / "ldt/eulumdat-py/sample4.ldt").string(), "-o", "x.txt"})
           .code,

@@ -45,6 +45,8 @@ class Glb:
 
     def lamps(self):
         """(light, 4 x 4 matrix, column vectors) of every KHR_lights_punctual node."""
+        if "EXT_lights_ies" in self.root.get("extensionsUsed", []):
+            raise SystemExit("measured lamps (EXT_lights_ies) cannot be given to Cycles yet")
         lights = self.root.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
         for node in self.list("nodes"):
             use = node.get("extensions", {}).get("KHR_lights_punctual")
