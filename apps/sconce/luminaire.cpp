@@ -18,6 +18,8 @@ constexpr Verb kActions[] = {
     {"info", "what a photometric file or a ray file says: flux, beam, symmetry, size", run_luminaire_info},
     {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
     {"convert", "IES to EULUMDAT and back; rays to a far field", run_luminaire_convert},
+    {"field", "rays to a near-field light field", run_luminaire_field},
+    {"render", "what the lamp alone throws onto a wall", run_luminaire_render},
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRadius = 200, kMargin = 50, kCentre = kRadius + kMargin, kTitle = 30;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// 1, 2 or 5 times a power of ten, so that four to ten rings fit.
+/// 1, 2 or 5 times a power of ten, so that three to five rings fit.
 double ring_step(double peak) {
   const double rough = peak / 5, power = std::pow(10, std::floor(std::log10(rough)));
   for (const double m : {1.0, 2.0, 5.0})

@@ -10,7 +10,8 @@
 
 namespace sconce {
 
-/// IES LM-63 (1986, 91, 95, 2002, 2019) or EULUMDAT, by content. TILT=<file> is looked for beside the file.
+/// IES LM-63 (1986, 91, 95, 2002, 2019), EULUMDAT or TM-33, by content. TILT=<file> is looked for beside the
+/// file.
 /// @throws Error naming file:line and what was expected; NotMyFormat where the file is neither
 Photometry read_photometry(const std::filesystem::path& path);
 
@@ -24,6 +25,11 @@ Photometry parse_ies(std::string_view text, const std::string& where,
 /// EULUMDAT. Intensities are per 1000 lm of the first lamp set.
 /// @throws NotMyFormat (the first numbers are not those of an LDT), Error
 Photometry parse_ldt(std::string_view text, const std::string& where);
+
+/// IES TM-33 (2018, 2022) and ATLA S001, XML: the luminous intensities of its one emitter. Spectra and sizes
+/// are not read.
+/// @throws NotMyFormat (no such XML), Error
+Photometry parse_tm33(std::string_view text, const std::string& where);
 
 /// LM-63-2002 text. Numbers are written so that they read back as the same doubles.
 std::string write_ies(const Photometry& photometry);

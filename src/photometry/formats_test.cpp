@@ -205,6 +205,50 @@ TEST(Formats, Eulumdat) {
   EXPECT_EQ(read("sample7.ldt").azimuths.size(), 361u);
 }
 
+/// @param values  IntData elements
+std::string tm33(const std::string& values, const std::string& more = "") {
+  return "<?xml "
+         "version=\"1.0\"?>\n<IESTM33-22><Version>1.1</Version>\n<Header><Manufacturer>Maker</Manufacturer></"
+         "Header>\n"
+         "<Emitter><Quantity>1</Quantity><RatedLumens>500</"
+         "RatedLumens>\n<LuminousData><LuminousIntensity>\n" +
+         values + "</LuminousIntensity></LuminousData></Emitter>" + more + "</IESTM33-22>\n";
+}
+
+TEST(Formats, Tm33) {
+  const Photometry axial =
+      parse_tm33(tm33("<IntData h=\"0\" v=\"0\">1</IntData><IntData h=\"0\" v=\"180\">1</IntData>"), "x");
+  EXPECT_NEAR(flux(axial), 4 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(axial.keyword("MANUFAC"), "Maker");
+  // Values in any order; a quadrant is mirrored.
+  const Photometry quadrant =
+      parse_tm33(tm33("<Multiplier>2</Multiplier><IntData h=\"90\" v=\"90\">4</IntData><IntData h=\"0\" "
+                      "v=\"0\">1</IntData>"
+                      "<IntData h=\"90\" v=\"0\">1</IntData><IntData h=\"0\" v=\"90\">3</IntData>"),
+                 "x");
+  EXPECT_EQ(intensity_at(quadrant, 180, 90), 6);
+  EXPECT_EQ(intensity_at(quadrant, 270, 90), 8);
+  EXPECT_EQ(symmetry_of(quadrant), Symmetry::quadrants);
+  const auto error = [](const std::string& text) {
+    try {
+      parse_tm33(text, "lamp.xml");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(error(tm33("<IntData h=\"0\" v=\"x\">1</IntData>")),
+            "lamp.xml:6: 'x' stands where IntData should (allowed: a number)");
+  EXPECT_NE(
+      error(tm33("<IntData h=\"0\" v=\"0\">1</IntData>").substr(0, 150)).find("lamp.xml:4: is no valid XML"),
+      std::string::npos)
+      << error(tm33("<IntData h=\"0\" v=\"0\">1</IntData>").substr(0, 150));
+  EXPECT_NE(error(tm33("<IntData h=\"0\" v=\"0\">1</IntData>", "<Emitter/>")).find("has 2 emitters"),
+            std::string::npos);
+  EXPECT_NE(error(tm33("")).find("holds no IntData"), std::string::npos);
+  EXPECT_THROW(parse_tm33("<svg/>", "x"), NotMyFormat);
+}
+
 TEST(Formats, BadInputIsOneLineThatNamesThePlace) {
   const std::string good = ies("0 90", 2);
   const auto with = [&](const std::string& from, const std::string& to) {

@@ -231,49 +231,12 @@ class Reader {
   void expand_c(const std::vector<double>& h, const std::vector<double>& v,
                 const std::vector<double>& candela, int line) {
     out_.polars = v;
-    const auto plane = [&](double azimuth, std::size_t of) {
-      out_.azimuths.push_back(azimuth);
-      const auto from = candela.begin() + static_cast<std::ptrdiff_t>(of * v.size());
-      out_.candela.insert(out_.candela.end(), from, from + static_cast<std::ptrdiff_t>(v.size()));
-    };
-    const std::size_t n = h.size();
-    const double first = h.front(), last = h.back();
-    const auto illegal = [&] {
-      fail(line, fmt::format("horizontal angles reach from {} to {}", first, last),
+    if (!fill_circle(out_, h, candela))
+      fail(line, fmt::format("horizontal angles reach from {} to {}", h.front(), h.back()),
            "from 0 to 0, 90, 180 or 360, or from 90 to 270");
-    };
-    if (n == 1) {
-      plane(0, 0), plane(360, 0);
-      return;
-    }
-    if (equal(first, 90) && equal(last, 270)) {  // mirrored about C90-C270: C and 180 - C are one
-      for (std::size_t i = n; i-- > 0;)
-        if (h[i] < 180 + 1e-6) plane(180 - h[i], i);
-      for (std::size_t i = 1; i + 1 < n; ++i) plane(h[i], i);
-      for (std::size_t i = n; i-- > 0;)
-        if (h[i] > 180 - 1e-6) plane(540 - h[i], i);
-      close_circle(out_);
-      return;
-    }
-    if (!equal(first, 0)) illegal();
-    if (equal(last, 90)) {
-      for (std::size_t i = 0; i < n; ++i) plane(h[i], i);
-      for (std::size_t i = n - 1; i-- > 0;) plane(180 - h[i], i);
-      for (std::size_t i = 1; i < n; ++i) plane(180 + h[i], i);
-      for (std::size_t i = n - 1; i-- > 0;) plane(360 - h[i], i);
-    } else if (equal(last, 180)) {
-      for (std::size_t i = 0; i < n; ++i) plane(h[i], i);
-      for (std::size_t i = n - 1; i-- > 0;) plane(360 - h[i], i);
-    } else if (last > 180 && last <= 360 + 1e-6) {
-      for (std::size_t i = 0; i < n; ++i) plane(h[i], i);
-      if (!equal(last, 360)) {
-        if (360 - last > 1.5 * (last - h[n - 2])) illegal();
-        note(line, fmt::format("horizontal angles end at {}; the plane at 360 is that at 0", last));
-        close_circle(out_);
-      }
-    } else {
-      illegal();
-    }
+    if (h.back() > 180 + 1e-6 && !equal(h.back(), 360) && !equal(h.back(), 270))
+      note(line,
+           fmt::format("horizontal angles end at {}; the circle is closed with the plane at 0", h.back()));
   }
 
   /// Horizontal angles from 0 on are mirrored. Type B turns about the horizontal axis, so its planes are the

@@ -218,6 +218,78 @@ TEST(LightField, RaysOfASquareLightAPlane) {
   }
 }
 
+/// 1 lm from a strip along the left edge of a square of 0.1 m, in a lobe cos^20 tilted to the right: seen
+/// from near the spot lies elsewhere than its far field says.
+std::vector<SourceRay> torch(uint32_t count) {
+  std::vector<SourceRay> out;
+  const Frame lobe(glm::normalize(Vec3(0.3f, 0, -1)));
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vec2 u = sobol_pair(i, 0, 1), v = sobol_pair(i, 1, 1);
+    const float c = std::pow(1 - v.x, 1.0f / 21), s = std::sqrt(1 - c * c);
+    const Vec3 d = lobe.to_world(Vec3(s * std::cos(2 * kPi * v.y), s * std::sin(2 * kPi * v.y), c));
+    if (d.z < 0)
+      out.push_back({Vec3(-0.05f + 0.03f * u.x, 0.1f * u.y - 0.05f, 0), d, 1.0f / static_cast<float>(count)});
+  }
+  return out;
+}
+
+// On walls at 0.5 to 10 times the lamp's size, against its own rays where they land; the far field of the
+// same rays beside it. The bound covers the error of eq. 14 (rays' noise added) on 95 % of the lit cells.
+TEST(LightField, AgreesWithBruteForceFromNear) {
+  constexpr int kCells = 12;
+  const auto rays = torch(1 << 21);
+  LightFieldBuilder builder(
+      make_light_field(NearBasis::spline, Vec2(-0.05f), Vec2(0.05f), 0.01, 0.25, 0.5, 80));
+  FarFieldBins bins(72, 90);
+  builder.add(rays);
+  bins.add(rays);
+  EXPECT_LT(builder.lost(), 0.01);
+  const NearLamp lamp(std::move(builder).finish());
+  const Photometry far = bins.table();
+  std::printf("  distance/size  exact   eq. 14  far field   covered\n");
+  for (const double times : {0.5, 1.0, 2.0, 5.0, 10.0}) {
+    const double z = 0.1 * times, width = 0.1 + 1.5 * z, cell = width / kCells;
+    std::vector<double> landed(kCells * kCells), hits(kCells * kCells);
+    for (const SourceRay& ray : rays) {
+      const glm::dvec3 p =
+          glm::dvec3(ray.position) + glm::dvec3(ray.direction) * (z / -static_cast<double>(ray.direction.z));
+      const glm::dvec2 at = (glm::dvec2(p) + glm::dvec2(0.5 * width - 0.3 * z + 0.03, 0.5 * width)) / cell;
+      if (!(at.x >= 0 && at.y >= 0 && at.x < kCells && at.y < kCells)) continue;
+      const auto i = static_cast<std::size_t>(at.y) * kCells + static_cast<std::size_t>(at.x);
+      landed[i] += static_cast<double>(ray.flux) / (cell * cell), ++hits[i];
+    }
+    double exact2 = 0, near2 = 0, far2 = 0, squares = 0, covered = 0, lit = 0;
+    for (int y = 0; y < kCells; ++y)
+      for (int x = 0; x < kCells; ++x) {
+        const auto i = static_cast<std::size_t>(y * kCells + x);
+        double exact = 0, approximate = 0, point = 0, bound = 0;
+        for (int k = 0; k < 4; ++k) {  // mean over the cell
+          const Vec3 at(static_cast<float>((x + 0.25 + 0.5 * (k % 2)) * cell - 0.5 * width + 0.3 * z - 0.03),
+                        static_cast<float>((y + 0.25 + 0.5 * (k / 2)) * cell - 0.5 * width),
+                        static_cast<float>(-z));
+          const Vec3 up(0, 0, 1);
+          exact += 0.25 * lamp.exact(at, up, 2), approximate += 0.25 * lamp.approximate(at, up);
+          bound += 0.25 * lamp.bound(at, up);
+          const float d = glm::length(at);
+          point += 0.25 * intensity(far, at / d) * z / std::pow(static_cast<double>(d), 3);
+        }
+        squares += landed[i] * landed[i];
+        exact2 += std::pow(exact - landed[i], 2), near2 += std::pow(approximate - landed[i], 2);
+        far2 += std::pow(point - landed[i], 2);
+        if (hits[i] < 100) continue;
+        ++lit;
+        covered += std::abs(approximate / landed[i] - 1) <= bound + 3 / std::sqrt(hits[i]);
+      }
+    const auto share = [&](double v) { return std::sqrt(v / squares); };
+    std::printf("  %12.1f %6.2f%% %7.2f%% %9.1f%% %8.0f%%\n", times, 100 * share(exact2), 100 * share(near2),
+                100 * share(far2), 100 * covered / lit);
+    EXPECT_LT(share(near2), 0.06) << times;
+    EXPECT_LT(share(exact2), 0.06) << times;
+    EXPECT_GT(share(far2), times < 3 ? 0.2 : 0) << times;
+    EXPECT_GE(covered, 0.95 * lit) << times;
+  }
+}
+
 TEST(LightField, FileComesBack) {
   const LightField field = noise(NearBasis::spline);
   const auto file = std::filesystem::temp_directory_path() / "sconce-light-field.exr";

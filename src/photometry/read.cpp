@@ -7,6 +7,11 @@ namespace sconce {
 
 Photometry read_photometry(const std::filesystem::path& path) {
   const std::string text = read_file(path);
+  // XML first: its text may hold anything.
+  try {
+    return parse_tm33(text, path.string());
+  } catch (const NotMyFormat&) {
+  }
   try {
     return parse_ies(text, path.string(), path.parent_path().empty() ? "." : path.parent_path());
   } catch (const NotMyFormat&) {
@@ -14,7 +19,7 @@ Photometry read_photometry(const std::filesystem::path& path) {
   try {
     return parse_ldt(text, path.string());
   } catch (const NotMyFormat&) {
-    throw NotMyFormat(path.string(), "is no photometric file that can be read", "IES LM-63, EULUMDAT");
+    throw NotMyFormat(path.string(), "is no photometric file that can be read", "IES LM-63, EULUMDAT, TM-33");
   }
 }
 
