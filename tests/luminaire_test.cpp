@@ -120,6 +120,37 @@ TEST(LuminaireVerb, InfoCheckConvert) {
   EXPECT_NEAR(flux(read_photometry(ies)), 800, 1e-6);
 }
 
+// Rays to a light field to a wall: the light field lights it as the rays do, from near, where their far field
+// does not.
+TEST(LuminaireVerb, FieldAndRender) {
+  const auto rays = (test_data() / "photometry/tm25/Cyl10k.1.tm25ray").string();
+  SCONCE_NEEDS_DATA(rays);
+  const test::TempFolder folder;
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const auto field = run_sconce(
+      {"luminaire", "field", rays, "-o", path("lamp.exr"), "--angle", "50", "--pixels", "32", "--json"});
+  ASSERT_EQ(field.code, 0) << field.err;
+  const auto json = nlohmann::json::parse(field.out);
+  EXPECT_NEAR(json.at("lumens").get<double>() + json.at("lumens_lost").get<double>(), 10000, 1);
+  // The sampling plane lies below the cylinder, 20 mm from its origin: walls at the same place.
+  EXPECT_NEAR(json.at("plane").get<double>(), -0.02, 1e-4);
+  const auto wall = [&](const std::string& file, const char* distance, const char* out) {
+    const auto run = run_sconce({"luminaire", "render", file, "-o", path(out), "--distance", distance,
+                                 "--width", "0.06", "--size", "2", "--json"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(run.out).at("lumens").get<double>();
+  };
+  EXPECT_EQ(run_sconce({"luminaire", "convert", rays, "-o", path("far.ies")}).code, 0);
+  const double landed = wall(rays, "0.07", "rays.exr"), near = wall(path("lamp.exr"), "0.05", "near.exr");
+  EXPECT_NEAR(near / landed, 1, 0.1) << "some 500 rays, and rays beyond 50 degrees missing";
+  EXPECT_GT(std::abs(wall(path("far.ies"), "0.07", "far.exr") / landed - 1), 0.1);
+  EXPECT_EQ(
+      run_sconce({"luminaire", "render", path("lamp.exr"), "-o", path("wall.png"), "--size", "4", "--quiet"})
+          .code,
+      0);
+  EXPECT_EQ(run_sconce({"luminaire", "field", rays, "-o", path("x.exr"), "--basis", "box"}).code, 2);
+}
+
 TEST(LuminaireVerb, BadInput) {
   const auto data = test_data() / "photometry";
   SCONCE_NEEDS_DATA(data);

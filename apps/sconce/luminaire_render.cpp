@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 
@@ -35,13 +36,14 @@ struct Wall {
 };
 
 template <class Lux>
-Image paint(const Wall& wall, const Lux& lux) {
+Image paint(const Wall& wall, const Progress& progress, const Lux& lux) {
   Image out = Image::rgb(wall.size, wall.size);
+  std::atomic<uint64_t> rows = 0;
   parallel_for(static_cast<std::size_t>(wall.size), 1, [&](std::size_t row) {
-    for (int x = 0; x < wall.size; ++x) {
-      const int y = static_cast<int>(row);
-      out.set_rgb(x, y, Rgb(static_cast<float>(lux(wall.at(x, y)))));
-    }
+    progress.check();
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < wall.size; ++x) out.set_rgb(x, y, Rgb(static_cast<float>(lux(wall.at(x, y)))));
+    progress.at("rows", ++rows, static_cast<uint64_t>(wall.size));
   });
   return out;
 }
@@ -78,13 +80,13 @@ Image land(const Wall& wall, const std::string& file, const Progress& progress) 
   return out;
 }
 
-Image paint_table(const Wall& wall, const Photometry& p) {
+Image paint_table(const Wall& wall, const Photometry& p, const Progress& progress) {
   Light light;
   light.intensity = Rgb(1);
   const Lamp lamp = make_luminaire(light, p);
   const auto& shape = std::get<LuminaireLamp>(lamp.shape);
   const uint32_t points = p.opening.is_point() ? 1 : kPoints;
-  return paint(wall, [&](const Vec3& x) {
+  return paint(wall, progress, [&](const Vec3& x) {
     double sum = 0;
     for (uint32_t i = 0; i < points; ++i) {
       LightSample sample;
@@ -137,15 +139,13 @@ int run_luminaire_render(int argc, const char* const* argv) {
   Image image;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
     const NearLamp lamp(read_light_field(file));
-    image = paint(wall, [&](const Vec3& x) {
-      progress.check();
-      return lamp.illuminance(x, Vec3(0, 0, 1), exact_below);
-    });
+    image =
+        paint(wall, progress, [&](const Vec3& x) { return lamp.illuminance(x, Vec3(0, 0, 1), exact_below); });
   } else {
     try {
       image = land(wall, file, progress);
     } catch (const NotMyFormat&) {
-      image = paint_table(wall, read_luminaire(file, 5, progress).photometry);
+      image = paint_table(wall, read_luminaire(file, 5, progress).photometry, progress);
     }
   }
   double sum = 0, most = 0;

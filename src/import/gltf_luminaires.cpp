@@ -89,7 +89,12 @@ std::optional<Light> GltfLuminaires::read(const tinygltf::Node& node, const Gltf
         file = text_of(extra, "file");
         strength.dim = number_of(extra, "dim", 1);
         if (extra.Has("flux")) strength.flux = number_of(extra, "flux", 0);
-        if (extra.Has("cct")) strength.color = kelvin_color(number_of(extra, "cct", 0));
+        if (extra.Has("cct")) {
+          const double cct = number_of(extra, "cct", 0);
+          if (!(cct >= kKelvinMin && cct <= kKelvinMax))
+            throw Error(source_.at(place + ".extras.luminaire.cct"), "is out of range", "1000 to 11000");
+          strength.color = kelvin_color(cct);
+        }
       }
       if (file.empty())
         throw Error(source_.at(place + ".extras.luminaire"), "names no file",

@@ -197,9 +197,12 @@ class Writer {
     root_["nodes"].push_back(std::move(out));
   }
 
-  /// As LM-63, whatever it came from: numbers are exact in it.
+  /// As LM-63, whatever it came from: numbers are exact in it. What it loses by tilt is in its lights'
+  /// intensity.
   void add(const Luminaire& luminaire) {
-    const std::string text = write_ies(luminaire.photometry);
+    Photometry photometry = luminaire.photometry;
+    photometry.tilt = {};
+    const std::string text = write_ies(photometry);
     extensions_.insert(kIes);
     root_["extensions"][kIes]["lights"].push_back({{"name", luminaire.name},
                                                    {"bufferView", add_view(text.data(), text.size(), 0)},

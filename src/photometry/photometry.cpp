@@ -114,6 +114,9 @@ double intensity_at(const Photometry& p, double azimuth, double polar) {
 }
 
 double intensity(const Photometry& p, const Vec3& direction) {
+  // Of a circle with one plane the azimuth does not matter: half of the time goes into it.
+  if (p.type == Photometry::Type::c && p.azimuths.size() == 2)
+    return intensity_at(p, 0, std::acos(std::clamp(-static_cast<double>(direction.z), -1.0, 1.0)) / kDegree);
   const auto [azimuth, polar] = angles_of(p.type, direction);
   return intensity_at(p, azimuth, polar);
 }

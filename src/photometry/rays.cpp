@@ -143,7 +143,7 @@ RayFile read_rays(const std::filesystem::path& path,
                 fmt::format("has {} bytes, which do not fit {} rays of {} numbers after a header of {} bytes",
                             size, rays, layout.numbers, layout.offset));
   in.seekg(static_cast<std::streamoff>(layout.offset));
-  std::vector<float> numbers(kBlock * layout.numbers);
+  std::vector<float> numbers(std::min<uint64_t>(kBlock, rays) * layout.numbers);
   std::vector<SourceRay> block;
   for (uint64_t done = 0; done < rays;) {
     const auto count = static_cast<std::size_t>(std::min<uint64_t>(kBlock, rays - done));
