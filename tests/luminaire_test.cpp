@@ -136,13 +136,13 @@ TEST(LuminaireVerb, FieldAndRender) {
   EXPECT_NEAR(json.at("plane").get<double>(), -0.02, 1e-4);
   const auto wall = [&](const std::string& file, const char* distance, const char* out) {
     const auto run = run_sconce({"luminaire", "render", file, "-o", path(out), "--distance", distance,
-                                 "--width", "0.06", "--size", "2", "--json"});
+                                 "--width", "0.06", "--size", "12", "--json"});
     EXPECT_EQ(run.code, 0) << run.err;
     return nlohmann::json::parse(run.out).at("lumens").get<double>();
   };
   EXPECT_EQ(run_sconce({"luminaire", "convert", rays, "-o", path("far.ies")}).code, 0);
   const double landed = wall(rays, "0.07", "rays.exr"), near = wall(path("lamp.exr"), "0.05", "near.exr");
-  EXPECT_NEAR(near / landed, 1, 0.1) << "some 500 rays, and rays beyond 50 degrees missing";
+  EXPECT_NEAR(near / landed, 1, 0.05) << "some 500 rays";
   EXPECT_GT(std::abs(wall(path("far.ies"), "0.07", "far.exr") / landed - 1), 0.1);
   EXPECT_EQ(
       run_sconce({"luminaire", "render", path("lamp.exr"), "-o", path("wall.png"), "--size", "4", "--quiet"})

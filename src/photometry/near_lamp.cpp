@@ -145,7 +145,7 @@ double NearLamp::bound(const Vec3& x, const Vec3& normal) const {
 }
 
 double NearLamp::illuminance(const Vec3& x, const Vec3& normal, double tolerance) const {
-  return bound(x, normal) > tolerance ? exact(x, normal) : std::max(0.0, approximate(x, normal));
+  return bound(x, normal) > tolerance ? exact(x, normal) : approximate(x, normal);
 }
 
 Photometry far_field(const NearLamp& lamp, double step) {
