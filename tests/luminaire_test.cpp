@@ -148,6 +148,8 @@ TEST(LuminaireVerb, FieldAndRender) {
       run_sconce({"luminaire", "render", path("lamp.exr"), "-o", path("wall.png"), "--size", "4", "--quiet"})
           .code,
       0);
+  EXPECT_EQ(run_sconce({"luminaire", "convert", path("lamp.exr"), "-o", path("by-product.ies")}).code, 0);
+  EXPECT_NEAR(flux(read_photometry(path("by-product.ies"))) / json.at("lumens").get<double>(), 1, 0.1);
   EXPECT_EQ(run_sconce({"luminaire", "field", rays, "-o", path("x.exr"), "--basis", "box"}).code, 2);
 }
 

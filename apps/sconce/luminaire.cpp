@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "app.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "photometry/formats.h"
+#include "photometry/light_field_file.h"
 
 namespace sconce::app {
 
@@ -49,6 +51,10 @@ int run_luminaire(int argc, const char* const* argv) {
 
 LuminaireSource read_luminaire(const std::string& file, double step, const Progress& progress) {
   LuminaireSource out;
+  if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
+    out.photometry = far_field(NearLamp(read_light_field(file)), step);
+    return out;
+  }
   FarFieldBins bins(static_cast<int>(std::lround(360 / step)), static_cast<int>(std::lround(180 / step)));
   try {
     out.rays = read_rays(

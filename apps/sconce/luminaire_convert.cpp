@@ -31,11 +31,12 @@ int run_luminaire_convert(int argc, const char* const* argv) {
   std::string file, output;
   double lumens = 0, step = 5;
   Options options("luminaire convert",
-                  "A photometric file in another format, or the far field of a ray file.");
-  options.positional("file", &file, "IES LM-63, EULUMDAT, TM-25, LightTools or Zemax rays");
+                  "A photometric file in another format, or the far field of rays or a light field.");
+  options.positional("file", &file,
+                     "IES LM-63, EULUMDAT, TM-33, light field (.exr), TM-25, LightTools or Zemax rays");
   options.option("-o,--output", &output, "file to write: .ies (LM-63-2002) or .ldt (EULUMDAT)");
   options.option("--lumens", &lumens, "scale to this luminous flux; 0 = as it is");
-  options.option("--step", &step, "rays: degrees between angles of the table");
+  options.option("--step", &step, "rays, light fields: degrees between angles of the table");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (output.empty()) throw UsageError("-o", "is missing", "a file .ies or .ldt");
   if (!(lumens >= 0)) throw UsageError("--lumens", "is negative", "lumens >= 0");
