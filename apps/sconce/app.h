@@ -73,6 +73,7 @@ int run_merge(int argc, const char* const* argv);
 int run_mix(int argc, const char* const* argv);
 int run_render(int argc, const char* const* argv);
 int run_shader(int argc, const char* const* argv);
+int run_luminaire(int argc, const char* const* argv);
 int run_diff(int argc, const char* const* argv);
 
 }  // namespace sconce::app

@@ -24,6 +24,7 @@ constexpr Verb kVerbs[] = {
     {"mix", "a package and group settings to one lightmap", run_mix},
     {"render", "a package and group settings to a picture", run_render},
     {"shader", "the shader that mixes a package's layers, for another renderer", run_shader},
+    {"luminaire", "measured lamps: info, check, convert", run_luminaire},
     {"diff", "how far two images differ", run_diff},
 };
 

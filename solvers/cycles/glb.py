@@ -47,6 +47,8 @@ class Glb:
         """(light, 4 x 4 matrix, column vectors) of every KHR_lights_punctual node."""
         lights = self.root.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
         for node in self.list("nodes"):
+            if "EXT_lights_ies" in node.get("extensions", {}):
+                raise SystemExit(f"{node.get('name')}: measured lamps (EXT_lights_ies) cannot be given to Cycles yet")
             use = node.get("extensions", {}).get("KHR_lights_punctual")
             if use is not None:
                 yield lights[use["light"]], matrix(node.get("matrix"))

@@ -4,9 +4,6 @@
 
 namespace sconce {
 
-namespace {
-
-/// Position and direction without the node's scale: KHR_lights_punctual says that scale does not touch lamps.
 Mat4 rigid(const Mat4& m) {
   const Vec3 z = normalize_or(Vec3(m[2]), Vec3(0, 0, 1));
   const Vec3 x = normalize_or(glm::cross(Vec3(m[1]), z), Frame(z).x);
@@ -17,8 +14,6 @@ Mat4 rigid(const Mat4& m) {
   out[3] = glm::vec4(Vec3(m[3]), 1);
   return out;
 }
-
-}  // namespace
 
 Light read_gltf_light(const GltfSource& source, int index, const GltfNode& node, const std::string& place) {
   const tinygltf::Light& l = element(source, source.model.lights, index, place);

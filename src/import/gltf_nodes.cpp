@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/error.h"
+#include "import/gltf_luminaires.h"
 #include "import/gltf_parts.h"
 
 namespace sconce {
@@ -94,6 +95,7 @@ void read_gltf_nodes(const GltfSource& source, const GltfMeshes& meshes, Scene& 
     GltfNode parent;
     std::string place;
   };
+  GltfLuminaires luminaires(source, scene, progress);
   std::vector<bool> seen(source.model.nodes.size(), false);
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const GltfNode& parent, const std::string& place) {
@@ -123,7 +125,9 @@ void read_gltf_nodes(const GltfSource& source, const GltfMeshes& meshes, Scene& 
       }
     }
     if (node.camera >= 0) add_camera(source, node.camera, here, place, scene, progress);
-    if (const tinygltf::Value* light = extension(node.extensions, "KHR_lights_punctual")) {
+    if (auto measured = luminaires.read(node, here, place)) {
+      scene.lights.push_back(std::move(*measured));
+    } else if (const tinygltf::Value* light = extension(node.extensions, "KHR_lights_punctual")) {
       if (!light->Has("light") || !light->Get("light").IsInt())
         throw Error(source.at(place), "KHR_lights_punctual without an index `light`");
       scene.lights.push_back(read_gltf_light(source, light->Get("light").Get<int>(), here, place + ".light"));

@@ -43,6 +43,9 @@ struct GltfNode {
 void read_gltf_nodes(const GltfSource& source, const GltfMeshes& meshes, Scene& scene,
                      const Progress& progress);
 
+/// Position and direction without the node's scale: KHR_lights_punctual says that scale does not touch lamps.
+Mat4 rigid(const Mat4& node);
+
 /// KHR_lights_punctual lamp `index` at a node.
 Light read_gltf_light(const GltfSource& source, int index, const GltfNode& node, const std::string& place);
 

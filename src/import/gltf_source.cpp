@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "import/gltf_container.h"
 #include "import/gltf_draco.h"
+#include "import/luminaires.h"
 #include "import/uri.h"
 
 namespace fs = std::filesystem;
@@ -22,7 +23,8 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 200;
 
-const std::vector<std::string> kUnderstood = {"KHR_draco_mesh_compression",
+const std::vector<std::string> kUnderstood = {"EXT_lights_ies",
+                                              "KHR_draco_mesh_compression",
                                               "KHR_lights_punctual",
                                               "KHR_materials_emissive_strength",
                                               "KHR_materials_pbrSpecularGlossiness",
@@ -126,6 +128,26 @@ std::optional<Bytes> read_buffer(const json& buffer, std::size_t index, const Gl
                 "is cut short: " + std::to_string(bytes.size()) + " bytes of " + std::to_string(length));
   bytes.resize(length);
   return bytes;
+}
+
+/// Photometric files that nodes name.
+std::vector<std::string> luminaire_files(const json& root) {
+  std::vector<std::string> out;
+  const json nodes = root.value("nodes", json::array());
+  for (const json& node : nodes) {
+    if (!node.is_object()) continue;
+    if (node.contains("name") && node.at("name").is_string())
+      out.push_back(luminaire_of_node_name(node.at("name").get<std::string>()));
+    for (const char* at : {"/extras/luminaire", "/extras/luminaire/file"}) {
+      const json::json_pointer pointer(at);
+      if (node.contains(pointer) && node.at(pointer).is_string())
+        out.push_back(node.at(pointer).get<std::string>());
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  std::erase(out, std::string());
+  return out;
 }
 
 std::vector<GltfImage> read_images(const json& root) {
@@ -256,15 +278,19 @@ GltfSource open_gltf(const fs::path& path, const Progress& progress) {
 std::vector<fs::path> gltf_files(const fs::path& path) {
   std::vector<fs::path> out;
   const json root = parse_json(open_gltf_container(path).json, path.string());
-  for (const char* key : {"buffers", "images"}) {
-    if (!root.contains(key) || !root.at(key).is_array()) continue;
-    for (const json& item : root.at(key)) {
+  const json profiles = root.value("/extensions/EXT_lights_ies/lights"_json_pointer, json::array());
+  const json files = {root.value("buffers", json::array()), root.value("images", json::array()), profiles};
+  for (const json& list : files) {
+    if (!list.is_array()) continue;
+    for (const json& item : list) {
       if (!item.is_object() || !item.contains("uri") || !item.at("uri").is_string()) continue;
       const auto uri = item.at("uri").get<std::string>();
       if (is_data_uri(uri) || has_scheme(uri)) continue;
       if (const fs::path file = beside(path, uri); is_file(file)) out.push_back(file);
     }
   }
+  for (const std::string& name : luminaire_files(root))
+    if (const auto file = find_luminaire_file(path.parent_path(), name)) out.push_back(*file);
   return out;
 }
 

@@ -65,13 +65,20 @@ std::vector<fs::path> scene_files(const fs::path& path) {
   if (!side) return out;
   out.push_back(*side);
   const SideNode root = parse_side_file(*side);
-  const SideNode* sky = root.find("sky");
-  const SideNode* file = sky != nullptr ? sky->find("file") : nullptr;
-  if (const auto* name = file != nullptr ? std::get_if<std::string>(&file->value) : nullptr) {
+  const auto add_file = [&](const SideNode* table) {
+    const SideNode* file = table != nullptr ? table->find("file") : nullptr;
+    const auto* name = file != nullptr ? std::get_if<std::string>(&file->value) : nullptr;
     std::error_code ec;
-    if (const fs::path picture = side->parent_path() / *name; fs::is_regular_file(picture, ec))
-      out.push_back(picture);
-  }
+    if (name != nullptr && fs::is_regular_file(side->parent_path() / *name, ec))
+      out.push_back(side->parent_path() / *name);
+  };
+  add_file(root.find("sky"));
+  const SideNode* luminaires = root.find("luminaire");
+  const auto* list = luminaires != nullptr ? std::get_if<SideNode::Array>(&luminaires->value) : nullptr;
+  if (list == nullptr)
+    add_file(luminaires);
+  else
+    for (const SideNode& table : *list) add_file(&table);
   return out;
 }
 

@@ -68,12 +68,13 @@ Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up) {
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress) {
   const SideNode root = parse_side_file(path);
   const SideTable file(path.string(), "the side file", root,
-                       {"light", "group", "emission", "camera", "sky", "material", "options"});
+                       {"light", "luminaire", "group", "emission", "camera", "sky", "material", "options"});
   const SideContext context{path, scene, progress};
   // Groups come last: they also name lamps that this file adds.
   for_each_table(context, root, "material", apply_material);
   for_each_table(context, root, "emission", apply_emission);
   for_each_table(context, root, "light", apply_light);
+  for_each_table(context, root, "luminaire", apply_luminaire);
   if (const SideNode* sky = root.find("sky")) apply_sky(context, *sky);
   for_each_table(context, root, "camera", apply_camera);
   if (const SideNode* groups = root.find("group")) {

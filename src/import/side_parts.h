@@ -22,6 +22,7 @@ struct SideContext {
 };
 
 void apply_light(const SideContext& context, const SideNode& node);
+void apply_luminaire(const SideContext& context, const SideNode& node);
 void apply_sky(const SideContext& context, const SideNode& node);
 void apply_camera(const SideContext& context, const SideNode& node);
 void apply_material(const SideContext& context, const SideNode& node);

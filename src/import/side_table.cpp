@@ -121,6 +121,20 @@ std::optional<bool> SideTable::flag(std::string_view key) const {
   return *value;
 }
 
+std::optional<std::array<double, 2>> SideTable::pair(std::string_view key) const {
+  const SideNode* item = node_.find(key);
+  if (item == nullptr) return std::nullopt;
+  const auto* array = std::get_if<SideNode::Array>(&item->value);
+  if (array == nullptr || array->size() != 2) fail(key, "is no pair", "[x, z]");
+  std::array<double, 2> out{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double* v = std::get_if<double>(&(*array)[i].value);
+    if (v == nullptr || !std::isfinite(*v)) fail(key, "holds something that is no number", "[x, z]");
+    out[i] = *v;
+  }
+  return out;
+}
+
 std::optional<Vec3> SideTable::vector(std::string_view key) const {
   const SideNode* item = node_.find(key);
   if (item == nullptr) return std::nullopt;

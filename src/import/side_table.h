@@ -3,6 +3,7 @@
 // side_table.cpp is the only place in this module that names toml++.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ class SideTable {
   std::optional<std::string> text(std::string_view key) const;
   std::optional<bool> flag(std::string_view key) const;
   std::optional<Vec3> vector(std::string_view key) const;
+  std::optional<std::array<double, 2>> pair(std::string_view key) const;
   std::vector<std::string> list(
       std::string_view key) const;  ///< an array of strings, or one; empty where absent
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/bounds.h"
 
+#include "light/luminaire.h"
+
 namespace sconce {
 
 LampBounds make_bounds(std::span<const Lamp> lamps, float scene_radius2) {
@@ -28,6 +30,13 @@ LampBounds make_bounds(std::span<const Lamp> lamps, float scene_radius2) {
                           radius = l.radius;
                           axis = l.axis;
                           plane = l.plane;
+                        },
+                        [&](const LuminaireLamp& l) {
+                          center = l.position;
+                          radius = l.table->opening.radius();
+                          if (!dark_above(*l.table)) return;
+                          axis = -l.to_world[2];
+                          plane = glm::dot(axis, center) - radius;
                         }},
                lamps[i].shape);
     b.x.push_back(center.x), b.y.push_back(center.y), b.z.push_back(center.z);

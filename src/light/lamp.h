@@ -98,7 +98,17 @@ struct MeshLamp {
   }
 };
 
-using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp>;
+/// A measured lamp: every point of its opening shines with the table's distribution.
+struct LuminaireLamp {
+  const Photometry* table = nullptr;  ///< of the scene's Luminaire
+  Vec3 position;                      ///< centre of the opening
+  Mat3 to_world{1.0f};                ///< of the luminaire's frame
+  Rgb scale;                          ///< multiplies the table
+  AliasTable cells;                   ///< probability per cell of the table: its flux
+  double flux = 0;                    ///< of the table, lm
+};
+
+using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp, LuminaireLamp>;
 
 struct Lamp {
   std::string name;

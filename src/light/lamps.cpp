@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/bounds.h"
 #include "light/lamp.h"
+#include "light/luminaire.h"
 #include "light/mesh_lamp.h"
 #include "light/punctual.h"
 #include "light/sky.h"
@@ -9,16 +10,17 @@ namespace sconce {
 
 namespace {
 
-Lamp make_lamp(const Light& light) {
-  return std::visit(Overload{[&](const PointLight& p) {
-                               return make_punctual(light, light.intensity, p.range, 0, 0, false);
-                             },
-                             [&](const SpotLight& s) {
-                               return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
-                             },
-                             [&](const SunLight&) { return make_sun(light); },
-                             [&](const SkyLight& s) { return make_sky(light, s); }},
-                    light.shape);
+Lamp make_lamp(const Scene& scene, const Light& light) {
+  return std::visit(
+      Overload{
+          [&](const PointLight& p) { return make_punctual(light, light.intensity, p.range, 0, 0, false); },
+          [&](const SpotLight& s) {
+            return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
+          },
+          [&](const SunLight&) { return make_sun(light); },
+          [&](const SkyLight& s) { return make_sky(light, s); },
+          [&](const LuminaireLight& l) { return make_luminaire(light, scene[l.luminaire].photometry); }},
+      light.shape);
 }
 
 }  // namespace
@@ -28,7 +30,7 @@ Lamps::Lamps(const Scene& scene, const World& world) : scene_(&scene), world_(&w
   scene_radius2_ = radius * radius;
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<SkyLight>(light.shape)) skies_.push_back(static_cast<uint32_t>(lamps_.size()));
-    lamps_.push_back(make_lamp(light));
+    lamps_.push_back(make_lamp(scene, light));
   }
   for (uint32_t t = 0; t < world.size();) {
     uint32_t end = t + 1;
@@ -48,6 +50,7 @@ bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out)
       Overload{[&](const PunctualLamp& l) { return sconce::sample(l, x, out); },
                [&](const SunLamp& l) { return sconce::sample(l, out); },
                [&](const SkyLamp& l) { return sconce::sample(l, u, out); },
+               [&](const LuminaireLamp& l) { return sconce::sample(l, x, u, out); },
                [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u, out); }},
       lamps_[i].shape);
 }
@@ -59,7 +62,8 @@ EmittedLight Lamps::emit(std::size_t i, Vec2 where, Vec2 whither) const {
       Overload{[&](const PunctualLamp& l) { return sconce::emit(l, whither); },
                [&](const SunLamp& l) { return sconce::emit(l, center, radius, where); },
                [&](const SkyLamp& l) { return sconce::emit(l, center, radius, where, whither); },
-               [&](const MeshLamp& l) { return sconce::emit(l, *scene_, *world_, where, whither); }},
+               [&](const MeshLamp& l) { return sconce::emit(l, *scene_, *world_, where, whither); },
+               [&](const LuminaireLamp& l) { return sconce::emit(l, where, whither); }},
       lamps_[i].shape);
 }
 

@@ -5,12 +5,14 @@
 #include "image/io.h"
 #include "package/glb.h"
 #include "package/json.h"
+#include "photometry/formats.h"
 
 namespace sconce {
 
 namespace {
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kIes = "EXT_lights_ies";
 
 uint32_t word(std::string_view bytes, std::size_t offset) {
   uint32_t v = 0;
@@ -54,6 +56,8 @@ class Reader {
     each(root_, "textures", [&](const JsonValue& v) { scene_.textures.push_back(texture(v)); });
     each(root_, "materials", [&](const JsonValue& v) { scene_.materials.push_back(material(v)); });
     each(root_, "meshes", [&](const JsonValue& v) { scene_.meshes.push_back(mesh(v)); });
+    if (root_.has("extensions") && root_.at("extensions").has(kIes))
+      each(root_.at("extensions").at(kIes), "lights", [&](const JsonValue& v) { luminaire(v); });
     each(root_, "nodes", [&](const JsonValue& v) { node(v); });
     if (top.has("extras")) each(top.at("extras"), "sky", [&](const JsonValue& v) { sky(v); });
     return std::move(scene_);
@@ -201,6 +205,15 @@ class Reader {
       const JsonValue camera = cameras.at(v.at("camera").index(cameras.size())), p = camera.at("perspective");
       scene_.cameras.push_back(
           {camera.text("name", ""), matrix, p.at("yfov").real(), p.at("aspectRatio").real()});
+    } else if (v.has("extensions") && v.at("extensions").has(kIes)) {
+      const JsonValue use = v.at("extensions").at(kIes);
+      Light light;
+      light.name = name;
+      light.frame = matrix;
+      light.group_name = group_of(v);
+      light.intensity = use.at("color").rgb() * use.at("multiplier").real();
+      light.shape = LuminaireLight{Id<Luminaire>(use.at("light").index(scene_.luminaires.size()))};
+      scene_.lights.push_back(std::move(light));
     } else if (v.has("extensions")) {
       const JsonValue lights = root_.at("extensions").at(kLights).at("lights");
       Light light = punctual(lights.at(v.at("extensions").at(kLights).at("light").index(lights.size())));
@@ -208,6 +221,12 @@ class Reader {
       light.group_name = group_of(v);
       scene_.lights.push_back(std::move(light));
     }
+  }
+
+  void luminaire(const JsonValue& v) {
+    const std::string name = v.at("name").text();
+    scene_.luminaires.push_back(
+        {name, parse_ies(view(v.at("bufferView")), where_ + ", luminaire '" + name + "'")});
   }
 
   static Light punctual(const JsonValue& v) {

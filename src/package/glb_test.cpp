@@ -83,6 +83,15 @@ Scene sample() {
   light.name = "sky";
   light.shape = SkyLight{};
   scene.lights.push_back(light);
+  Photometry table;
+  table.azimuths = {0, 360};
+  table.polars = {0, 50, 90};
+  table.candela = {1.0 / 3, 77.7, 0, 1.0 / 3, 77.7, 0};
+  table.opening = {Opening::Shape::cylinder, 2, Vec3(0.1f, 0.1f, 0)};
+  scene.luminaires.push_back({"lamp.ldt", table});
+  light.name = "measured";
+  light.shape = LuminaireLight{Id<Luminaire>(0)};
+  scene.lights.push_back(light);
   return scene;
 }
 
@@ -136,7 +145,7 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.instances[1].group_name, "b");
   EXPECT_EQ(b.instances[1].lightmap_scale, 0.5f);
   EXPECT_EQ(b.instances[2].mesh, a.instances[2].mesh);
-  ASSERT_EQ(b.lights.size(), 4u);
+  ASSERT_EQ(b.lights.size(), 5u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(b.lights[i].name, a.lights[i].name);
     EXPECT_EQ(b.lights[i].frame, a.lights[i].frame);
@@ -148,8 +157,19 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(std::get<SpotLight>(b.lights[1].shape).outer, 0.4f);
   EXPECT_EQ(b.lights[0].group_name, "asked");
   EXPECT_EQ(b.lights[2].group_name, "a");
-  EXPECT_TRUE(std::holds_alternative<SkyLight>(b.lights[3].shape));
-  EXPECT_EQ(b.lights[3].group_name, "a");
+  EXPECT_TRUE(std::holds_alternative<SkyLight>(b.lights.back().shape));
+  EXPECT_EQ(b.lights.back().group_name, "a");
+  const auto lamp =
+      std::find_if(b.lights.begin(), b.lights.end(), [](const Light& l) { return l.name == "measured"; });
+  ASSERT_NE(lamp, b.lights.end());
+  EXPECT_EQ(lamp->intensity, a.lights[4].intensity);
+  EXPECT_EQ(lamp->frame, a.lights[4].frame);
+  EXPECT_EQ(lamp->group_name, "a");
+  ASSERT_EQ(std::get<LuminaireLight>(lamp->shape).luminaire, Id<Luminaire>(0));
+  EXPECT_EQ(b.luminaires[0].name, "lamp.ldt");
+  EXPECT_EQ(b.luminaires[0].photometry.candela, a.luminaires[0].photometry.candela);
+  EXPECT_EQ(b.luminaires[0].photometry.opening.size, a.luminaires[0].photometry.opening.size);
+  EXPECT_EQ(b.luminaires[0].photometry.opening.shape, Opening::Shape::cylinder);
   ASSERT_EQ(b.cameras.size(), 1u);
   EXPECT_EQ(b.cameras[0].name, "main");
   EXPECT_EQ(b.cameras[0].frame, a.cameras[0].frame);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "image/io.h"
 #include "package/glb.h"
+#include "photometry/formats.h"
 
 namespace sconce {
 
@@ -15,6 +16,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kIes = "EXT_lights_ies";
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
 constexpr const char* kTransform = "KHR_texture_transform";
 
@@ -60,6 +62,7 @@ class Writer {
     for (const Material& material : scene_.materials) add(material);
     for (const Mesh& mesh : scene_.meshes) add(mesh);
     for (const Instance& instance : scene_.instances) add(instance);
+    for (const Luminaire& luminaire : scene_.luminaires) add(luminaire);
     for (const Light& light : scene_.lights) add(light);
     for (const Camera& camera : scene_.cameras) add(camera);
     Json& top = root_["scenes"][0];
@@ -194,6 +197,18 @@ class Writer {
     root_["nodes"].push_back(std::move(out));
   }
 
+  /// As LM-63, whatever it came from: numbers are exact in it. What it loses by tilt is in its lights'
+  /// intensity.
+  void add(const Luminaire& luminaire) {
+    Photometry photometry = luminaire.photometry;
+    photometry.tilt = {};
+    const std::string text = write_ies(photometry);
+    extensions_.insert(kIes);
+    root_["extensions"][kIes]["lights"].push_back({{"name", luminaire.name},
+                                                   {"bufferView", add_view(text.data(), text.size(), 0)},
+                                                   {"mimeType", "application/x-ies-lm-63"}});
+  }
+
   void add(const Light& light) {
     const std::string group = group_name(light.group, light.group_name);
     if (std::holds_alternative<SkyLight>(light.shape)) {
@@ -202,6 +217,15 @@ class Writer {
       return;
     }
     const Split intensity = split_strength(light.intensity);
+    if (const auto* measured = std::get_if<LuminaireLight>(&light.shape)) {
+      Json placed = node(light.name, light.frame);
+      placed["extensions"][kIes] = {{"light", measured->luminaire.value},
+                                    {"multiplier", intensity.strength},
+                                    {"color", array(intensity.color)}};
+      if (!group.empty()) placed["extras"]["light_group"] = group;
+      root_["nodes"].push_back(std::move(placed));
+      return;
+    }
     Json out = {{"name", light.name}, {"color", array(intensity.color)}, {"intensity", intensity.strength}};
     if (const auto* point = std::get_if<PointLight>(&light.shape)) {
       out["type"] = "point";

@@ -27,6 +27,8 @@ JsonValue JsonValue::parse(std::string_view text, const std::string& where) {
     document->root = Json::parse(text);
   } catch (const Json::parse_error& e) {
     throw Error(where, "is damaged: no JSON at byte " + std::to_string(e.byte));
+  } catch (const Json::exception& e) {
+    throw Error(where, std::string("is damaged: ") + e.what());  // a number too large for a double
   }
   JsonValue value;
   value.value_ = &document->root;

@@ -80,6 +80,7 @@ BakedScene make_baked_scene(const Scene& scene, const World& world, const Atlas&
   out.name = scene.name;
   out.textures = scene.textures;
   out.materials = scene.materials;
+  out.luminaires = scene.luminaires;
   out.lights = scene.lights;
   out.groups = scene.groups;
   out.cameras = scene.cameras;

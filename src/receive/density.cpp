@@ -81,6 +81,12 @@ class Starts {
     const Vec3 forward = normalize_or(-Vec3(light.frame[2]), Vec3(0, -1, 0));
     const float radius = 0.51f * world_.bounds.diagonal();
     if (std::holds_alternative<PointLight>(light.shape)) return {place, sphere_direction(u)};
+    if (const auto* measured = std::get_if<LuminaireLight>(&light.shape)) {
+      // Where it is dark, the ray goes the other way: a downlight lights no attic.
+      const Vec3 local = sphere_direction(u);
+      const bool lit = intensity(scene_[measured->luminaire].photometry, local) > 0;
+      return {place, glm::normalize(Mat3(light.frame) * (lit ? local : -local))};
+    }
     if (const auto* spot = std::get_if<SpotLight>(&light.shape)) {
       const float c = 1 - u.x * (1 - std::cos(std::min(spot->outer, kPi))), phi = 2 * kPi * u.y;
       const float s = std::sqrt(std::max(0.0f, 1 - c * c));

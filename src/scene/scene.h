@@ -13,6 +13,7 @@
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "image/image.h"
+#include "photometry/photometry.h"
 
 namespace sconce {
 
@@ -95,12 +96,23 @@ struct SkyLight {
   Image image;  ///< RGB; empty = constant 1
 };
 
+/// A measured lamp as its maker's file describes it; lights share it.
+struct Luminaire {
+  std::string name;  ///< file name
+  Photometry photometry;
+};
+/// A measured lamp in its place: nadir along -z of the frame, C0 along +x. Its intensity is the table's times
+/// Light::intensity; its opening spreads it over an area.
+struct LuminaireLight {
+  Id<Luminaire> luminaire;
+};
+
 /// A light that is no mesh. Points along -z of its frame. Emissive meshes are area lights by their material.
 struct Light {
   std::string name;
   Mat4 frame{1.0f};
-  Rgb intensity;  ///< colour x strength: cd (point, spot), lux (sun), cd/m2 factor (sky)
-  std::variant<PointLight, SpotLight, SunLight, SkyLight> shape;
+  Rgb intensity;  ///< colour x strength: cd (point, spot), lux (sun), cd/m2 factor (sky), factor (luminaire)
+  std::variant<PointLight, SpotLight, SunLight, SkyLight, LuminaireLight> shape;
   std::string group_name;
   Id<LightGroup> group;
   std::string light_name;  ///< extras.light, as for instances
@@ -119,6 +131,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<Luminaire> luminaires;
   std::vector<Light> lights;
   std::vector<LightGroup> groups;  ///< filled by assign_groups()
   std::vector<Camera> cameras;
@@ -131,6 +144,7 @@ struct Scene {
   const Material& operator[](Id<Material> id) const { return get(materials, id); }
   const Mesh& operator[](Id<Mesh> id) const { return get(meshes, id); }
   const Instance& operator[](Id<Instance> id) const { return get(instances, id); }
+  const Luminaire& operator[](Id<Luminaire> id) const { return get(luminaires, id); }
   const Light& operator[](Id<Light> id) const { return get(lights, id); }
   const LightGroup& operator[](Id<LightGroup> id) const { return get(groups, id); }
   const Camera& operator[](Id<Camera> id) const { return get(cameras, id); }

@@ -177,6 +177,8 @@ class Validator {
         spot->inner = spot->inner >= 0 ? std::min(spot->inner, spot->outer) : 0.0f;
       }
     }
+    if (const auto* measured = std::get_if<LuminaireLight>(&light.shape))
+      check_id(measured->luminaire, scene_.luminaires.size(), scene_.name + ": " + what + ": luminaire");
     if (auto* sky = std::get_if<SkyLight>(&light.shape)) {
       bool bad = false;
       for (float& v : sky->image.data)

@@ -52,7 +52,14 @@ void add_surroundings(ContentHash& hash, const Scene& scene, const World& world)
   for (const Camera& camera : scene.cameras) hash.value(camera.frame).value(camera.yfov).value(camera.aspect);
 }
 
-void add_lamp(ContentHash& hash, const Light& light) {
+void add(ContentHash& hash, const Photometry& p) {
+  hash.value(p.type).value(p.opening.shape).value(p.opening.axis).value(p.opening.size);
+  add(hash, p.azimuths);
+  add(hash, p.polars);
+  add(hash, p.candela);
+}
+
+void add_lamp(ContentHash& hash, const Scene& scene, const Light& light) {
   hash.value(light.shape.index()).value(light.frame).value(light.intensity);
   if (const auto* point = std::get_if<PointLight>(&light.shape)) hash.value(point->range);
   if (const auto* spot = std::get_if<SpotLight>(&light.shape))
@@ -61,6 +68,8 @@ void add_lamp(ContentHash& hash, const Light& light) {
     hash.value(sky->image.width).value(sky->image.height);
     add(hash, sky->image.data);
   }
+  if (const auto* measured = std::get_if<LuminaireLight>(&light.shape))
+    add(hash, scene[measured->luminaire].photometry);
 }
 
 }  // namespace
@@ -70,7 +79,7 @@ std::vector<std::string> layer_inputs(const Scene& scene, const World& world, st
   add_surroundings(surroundings, scene, world);
   std::vector<ContentHash> groups(scene.groups.size());
   for (ContentHash& hash : groups) hash.text(how).text(surroundings.hex());
-  for (const Light& light : scene.lights) add_lamp(groups[light.group.value], light);
+  for (const Light& light : scene.lights) add_lamp(groups[light.group.value], scene, light);
   for (std::size_t t = 0; t < world.size();) {
     std::size_t end = t + 1;
     while (end < world.size() && world.instances[end] == world.instances[t]) ++end;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "luminaire.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "app.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "photometry/formats.h"
+#include "photometry/light_field_file.h"
+
+namespace sconce::app {
+
+namespace {
+
+constexpr Verb kActions[] = {
+    {"info", "what a photometric file or a ray file says: flux, beam, symmetry, size", run_luminaire_info},
+    {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
+    {"convert", "IES to EULUMDAT and back; rays to a far field", run_luminaire_convert},
+    {"field", "rays to a near-field light field", run_luminaire_field},
+    {"render", "what the lamp alone throws onto a wall", run_luminaire_render},
+};
+
+}  // namespace
+
+int run_luminaire(int argc, const char* const* argv) {
+  const std::string name = argc > 0 ? argv[0] : "";
+  std::vector<std::string> names;
+  for (const Verb& action : kActions) {
+    if (name == action.name) return action.run(argc - 1, argv + 1);
+    names.emplace_back(action.name);
+  }
+  if (name == "--help" || name == "-h") {
+    fmt::print(
+        "usage: sconce luminaire ACTION FILE [options]\n\nMeasured lamps: IES LM-63, EULUMDAT, ray "
+        "files.\n\n");
+    for (const Verb& action : kActions) fmt::print("  {:<10}{}\n", action.name, action.summary);
+    fmt::print("\n'sconce luminaire ACTION --help' lists its options.\n");
+    return kDone;
+  }
+  const auto nearest = nearest_name(name, names);
+  throw UsageError(
+      {},
+      name.empty() ? "missing action"
+                   : "unknown action '" + name + "'" + (nearest ? "; did you mean '" + *nearest + "'?" : ""),
+      join(names, ", "));
+}
+
+LuminaireSource read_luminaire(const std::string& file, double step, const Progress& progress) {
+  LuminaireSource out;
+  if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
+    out.photometry = far_field(NearLamp(read_light_field(file)), step);
+    return out;
+  }
+  FarFieldBins bins(static_cast<int>(std::lround(360 / step)), static_cast<int>(std::lround(180 / step)));
+  try {
+    out.rays = read_rays(
+        file, [&](std::span<const SourceRay> rays) { bins.add(rays); }, progress);
+  } catch (const NotMyFormat&) {
+    out.photometry = read_photometry(file);
+    for (const std::string& note : out.photometry.notes) progress.warn(file + ": " + note);
+    return out;
+  }
+  out.ray_flux = bins.flux();
+  if (!(out.ray_flux > 0)) throw Error(file, "holds rays without flux");
+  out.photometry = bins.table();
+  return out;
+}
+
+std::string describe(const Opening& o) {
+  if (o.is_point()) return "point";
+  const std::string size = fmt::format("{:.3g} x {:.3g} x {:.3g} m", o.size.x, o.size.y, o.size.z);
+  constexpr const char* kShapes[] = {"box", "cylinder", "ellipsoid"};
+  const bool disk = o.shape == Opening::Shape::cylinder && o.axis == 2 && o.size.z == 0;
+  const bool flat = o.shape == Opening::Shape::box && o.size.z == 0;
+  return size + " (C0, C90, height) " +
+         (disk   ? "disk"
+          : flat ? "rectangle"
+                 : kShapes[static_cast<std::size_t>(o.shape)]);
+}
+
+}  // namespace sconce::app

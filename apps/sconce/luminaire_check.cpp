@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "app.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/sobol.h"
+#include "light/lamp.h"
+#include "luminaire.h"
+#include "photometry/diagram.h"
+#include "photometry/doctor.h"
+#include "photometry/formats.h"
+#include "photometry/ugr.h"
+#include "scene/groups.h"
+#include "scene/shapes.h"
+#include "table.h"
+
+namespace sconce::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const UgrTable& ugr) {
+  std::vector<Table::Column> columns = {{"ROOM"}};
+  for (const char* view : {"across", "along"})
+    for (const auto& r : UgrTable::kReflectances)
+      columns.push_back({fmt::format("{} {:.0f}/{:.0f}/{:.0f}", view, 100 * r[0], 100 * r[1], 100 * r[2]),
+                         Table::Align::right});
+  Table table(columns);
+  for (std::size_t i = 0; i < ugr.values.size(); ++i) {
+    std::vector<std::string> cells = {
+        fmt::format("{:g}H x {:g}H", UgrTable::kRooms[i].x, UgrTable::kRooms[i].y)};
+    for (const double v : ugr.values[i]) cells.push_back(fmt::format("{:.1f}", v));
+    table.add(std::move(cells));
+  }
+  return table.text();
+}
+
+std::optional<UgrTable> ugr_of(const Photometry& p) {
+  if (!(p.opening.size.x > 0 && p.opening.size.y > 0) || !(flux(p) > 0)) return std::nullopt;
+  return ugr_table(p);
+}
+
+}  // namespace
+
+double rendered_flux(const Photometry& p) {
+  Scene scene;
+  add_quad(scene, "dark", add_material(scene, "dark", Rgb(0)), Vec3(-1), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  scene.luminaires.push_back({"lamp", p});
+  Light light;
+  light.intensity = Rgb(1);
+  light.shape = LuminaireLight{Id<Luminaire>(0)};
+  scene.lights.push_back(light);
+  assign_groups(scene, Grouping::one);
+  const World world = make_world(scene);
+  const Lamps lamps(scene, world);
+  const float radius = 1000 * std::max(1.0f, p.opening.radius());
+  constexpr uint32_t kPoints = 1 << 18;
+  double sum = 0;
+  for (uint32_t i = 0; i < kPoints; ++i) {
+    const Vec2 u = sobol_pair(i, 0, 1);
+    const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    const Vec3 d(r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z);
+    LightSample sample;
+    if (lamps.sample(0, radius * d, sobol_pair(i, 1, 1), sample))
+      sum += static_cast<double>(sample.radiance.g * -glm::dot(sample.direction, d));
+  }
+  return sum / kPoints * 4 * std::numbers::pi * static_cast<double>(radius) * static_cast<double>(radius);
+}
+
+int run_luminaire_check(int argc, const char* const* argv) {
+  std::vector<std::string> files;
+  std::string diagram;
+  bool ugr = false;
+  Options options("luminaire check",
+                  "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
+                  "glare. Exit code 3 where "
+                  "something is wrong.");
+  options.positionals("file", &files, "IES LM-63 or EULUMDAT files", true);
+  options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
+  options.option("--diagram", &diagram, "write the polar diagram as SVG; with several files a folder");
+  if (const auto code = options.parse(argc, argv)) return *code;
+  bool sick = false;
+  Json report = Json::array();
+  if (!diagram.empty() && files.size() > 1) std::filesystem::create_directories(diagram);
+  for (const std::string& file : files) {
+    const Photometry p = read_photometry(file);
+    const std::vector<Finding> findings = examine(p);
+    const double lumens = flux(p), rendered = rendered_flux(p);
+    const std::optional<UgrTable> table = ugr_of(p);
+    if (!diagram.empty()) {
+      const std::filesystem::path stem = std::filesystem::path(file).stem();
+      write_file(files.size() > 1 ? std::filesystem::path(diagram) / (stem.string() + ".svg")
+                                  : std::filesystem::path(diagram),
+                 polar_svg(p, stem.string()));
+    }
+    Json found = Json::array();
+    for (const Finding& finding : findings) {
+      sick |= finding.warning;
+      found.push_back({{"warning", finding.warning}, {"text", finding.text}});
+    }
+    Json entry = {{"file", file},
+                  {"lumens", lumens},
+                  {"lumens_stated", p.stated ? Json(*p.stated) : Json()},
+                  {"lumens_rendered", rendered},
+                  {"findings", std::move(found)}};
+    if (table) entry["ugr"] = table->values;
+    report.push_back(std::move(entry));
+    if (options.json || options.quiet) continue;
+    fmt::print("{}: {:.1f} lm, rendered {:.1f} lm{}\n", file, lumens, rendered,
+               p.stated ? fmt::format(", stated {:.1f} lm", *p.stated) : "");
+    for (const Finding& finding : findings)
+      fmt::print("  {}{}\n", finding.warning ? "warning: " : "", finding.text);
+    if (ugr && table) fmt::print("{}", text_of(*table));
+    if (ugr && !table) fmt::print("  no UGR table: the file does not say how large the luminous area is\n");
+  }
+  if (options.json) fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  return sick ? kDiffers : kDone;
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include "app.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/sobol.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "light/luminaire.h"
+#include "luminaire.h"
+#include "photometry/formats.h"
+#include "photometry/light_field_file.h"
+
+namespace sconce::app {
+
+namespace {
+
+constexpr uint32_t kPoints = 64;  // of the opening, per pixel
+
+/// A wall across nadir at a distance below the lamp, as seen from the lamp: x (C0) to the right, y (C90) up.
+struct Wall {
+  double distance, width;  ///< m
+  int size;                ///< pixels along an edge
+
+  Vec3 at(int x, int y) const {
+    const double step = width / size;
+    return {static_cast<float>((x + 0.5) * step - 0.5 * width),
+            static_cast<float>(0.5 * width - (y + 0.5) * step), static_cast<float>(-distance)};
+  }
+};
+
+template <class Lux>
+Image paint(const Wall& wall, const Progress& progress, const Lux& lux) {
+  Image out = Image::rgb(wall.size, wall.size);
+  std::atomic<uint64_t> rows = 0;
+  parallel_for(static_cast<std::size_t>(wall.size), 1, [&](std::size_t row) {
+    progress.check();
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < wall.size; ++x) out.set_rgb(x, y, Rgb(static_cast<float>(lux(wall.at(x, y)))));
+    progress.at("rows", ++rows, static_cast<uint64_t>(wall.size));
+  });
+  return out;
+}
+
+/// Rays where they land: the lamp itself, with its noise.
+Image land(const Wall& wall, const std::string& file, const Progress& progress) {
+  Image out = Image::rgb(wall.size, wall.size);
+  std::vector<double> sums(out.pixels());
+  const double step = wall.width / wall.size;
+  read_rays(
+      file,
+      [&](std::span<const SourceRay> rays) {
+        for (const SourceRay& ray : rays) {
+          const double drop =
+              (static_cast<double>(ray.position.z) + wall.distance) / static_cast<double>(-ray.direction.z);
+          if (!(drop > 0)) continue;
+          const double x = (static_cast<double>(ray.position.x + ray.direction.x * drop) + 0.5 * wall.width) /
+                           step,
+                       y = (0.5 * wall.width - static_cast<double>(ray.position.y + ray.direction.y * drop)) /
+                           step;
+          if (!(x >= 0 && y >= 0 && x < wall.size && y < wall.size)) continue;
+          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
+               static_cast<std::size_t>(x)] += static_cast<double>(ray.flux);
+        }
+      },
+      progress);
+  for (int y = 0; y < wall.size; ++y)
+    for (int x = 0; x < wall.size; ++x)
+      out.set_rgb(
+          x, y,
+          Rgb(static_cast<float>(sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
+                                      static_cast<std::size_t>(x)] /
+                                 (step * step))));
+  return out;
+}
+
+Image paint_table(const Wall& wall, const Photometry& p, const Progress& progress) {
+  Light light;
+  light.intensity = Rgb(1);
+  const Lamp lamp = make_luminaire(light, p);
+  const auto& shape = std::get<LuminaireLamp>(lamp.shape);
+  const uint32_t points = p.opening.is_point() ? 1 : kPoints;
+  return paint(wall, progress, [&](const Vec3& x) {
+    double sum = 0;
+    for (uint32_t i = 0; i < points; ++i) {
+      LightSample sample;
+      if (sconce::sample(shape, x, sobol_pair(i, 0, 1), sample))
+        sum += static_cast<double>(sample.radiance.g * std::max(0.0f, sample.direction.z));
+    }
+    return sum / points;
+  });
+}
+
+/// Brightest pixel white.
+void write_picture(const std::string& file, const Image& image, double most) {
+  Image8 out{image.width, image.height, 3, {}};
+  for (const float v : image.data)
+    out.data.push_back(static_cast<unsigned char>(
+        255 * linear_to_srgb(std::clamp(most > 0 ? v / static_cast<float>(most) : 0.0f, 0.0f, 1.0f)) + 0.5f));
+  write_png(file, out);
+}
+
+}  // namespace
+
+int run_luminaire_render(int argc, const char* const* argv) {
+  std::string file, output;
+  double distance = 1, width = 0, exact_below = 0.1;
+  int size = 256;
+  Options options("luminaire render",
+                  "What a lamp alone throws onto a wall across its nadir: lux as .exr, or a .png.");
+  options.positional("file", &file,
+                     "IES LM-63, EULUMDAT, light field (.exr) or rays (then the rays themselves)");
+  options.option("-o,--output", &output, "file to write: .exr (lux) or .png (brightest pixel white)");
+  options.option("--distance", &distance, "metres from the lamp to the wall");
+  options.option("--width", &width, "metres of wall; 0 = twice the distance");
+  options.option("--size", &size, "pixels of the picture's edge");
+  options.option("--exact-below", &exact_below,
+                 "light fields: error that the shift-invariant approximation may have by its bound; where it "
+                 "is above, the exact "
+                 "reconstruction is used (0 = everywhere)");
+  if (const auto code = options.parse(argc, argv)) return *code;
+  const std::string type = lower(std::filesystem::path(output).extension().string());
+  if (type != ".exr" && type != ".png")
+    throw UsageError("-o", "'" + output + "' names no format", ".exr, .png");
+  if (!(distance > 0)) throw UsageError("--distance", "is not positive", "metres > 0");
+  if (!(width >= 0)) throw UsageError("--width", "is negative", "metres >= 0");
+  if (!(exact_below >= 0)) throw UsageError("--exact-below", "is negative", "an error >= 0, e.g. 10%");
+  if (size < 1 || size > 8192) throw UsageError("--size", "is out of range", "1 to 8192");
+  const ThreadLimit threads(options.threads);
+  const Progress progress = make_progress(options);
+  const Wall wall{distance, width > 0 ? width : 2 * distance, size};
+
+  Image image;
+  if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
+    const NearLamp lamp(read_light_field(file));
+    image =
+        paint(wall, progress, [&](const Vec3& x) { return lamp.illuminance(x, Vec3(0, 0, 1), exact_below); });
+  } else {
+    try {
+      image = land(wall, file, progress);
+    } catch (const NotMyFormat&) {
+      image = paint_table(wall, read_luminaire(file, 5, progress).photometry, progress);
+    }
+  }
+  double sum = 0, most = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const auto lux = static_cast<double>(image.at(x, y)[0]);
+      sum += lux, most = std::max(most, lux);
+    }
+  const double mean = sum / (static_cast<double>(size) * size), lumens = mean * wall.width * wall.width;
+  image.text["sconce:unit"] = "lux";
+  if (type == ".exr")
+    write_exr(output, image, PixelType::full);
+  else
+    write_picture(output, image, most);
+  if (options.json)
+    fmt::print(
+        "{}\n",
+        nlohmann::json{{"file", output}, {"lux_most", most}, {"lux_mean", mean}, {"lumens", lumens}}.dump(2));
+  else if (!options.quiet)
+    fmt::print("{}: {:.4g} lux at most, {:.4g} in the mean, {:.5g} lm on {:g} x {:g} m\n", output, most, mean,
+               lumens, wall.width, wall.width);
+  return kDone;
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photometry/light_field.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sconce {
+
+namespace {
+
+/// Filters that may hold a point, and their weights, along one axis.
+struct Filters {
+  int begin = 0, count = 0;
+  double weight[6];
+};
+
+/// What a builder weighs a ray by: the bell's dual, or the spline itself, whose dual is applied at the end.
+Filters filters_at(NearBasis basis, double x) {
+  const double reach = basis == NearBasis::bell ? 2 : 1.5;
+  Filters out;
+  out.begin = static_cast<int>(std::ceil(x - reach));
+  out.count = static_cast<int>(std::floor(x + reach)) - out.begin + 1;
+  for (int i = 0; i < out.count; ++i) {
+    const double at = x - (out.begin + i);
+    out.weight[i] = basis == NearBasis::bell ? bell_dual(at) : spline(at);
+  }
+  return out;
+}
+
+/// A spline's dual reaches on, a factor 0.43 a spacing; a bell's ends after two.
+int margin_of(NearBasis basis) {
+  return basis == NearBasis::bell ? 2 : 6;
+}
+
+}  // namespace
+
+LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, double spacing,
+                            double distance, double half_extent, int pixels) {
+  if (!(spacing > 0) || !(distance > 0) || !(half_extent > 0) || pixels < 1)
+    throw Error("light field", "has a spacing, distance, extent or size that is not positive");
+  LightField out;
+  out.basis = basis;
+  out.spacing = spacing;
+  out.distance = distance;
+  const glm::dvec2 size = glm::dvec2(high) - glm::dvec2(low),
+                   center = 0.5 * (glm::dvec2(high) + glm::dvec2(low));
+  const auto filters = [&](double length) {
+    return static_cast<int>(std::ceil(length / spacing - 1e-9)) + 1 + 2 * margin_of(basis);
+  };
+  out.columns = filters(size.x);
+  out.rows = filters(size.y);
+  out.first = center - 0.5 * spacing * glm::dvec2(out.columns - 1, out.rows - 1);
+  out.width = out.height = pixels;
+  out.pixel = 2 * half_extent / pixels;
+  out.corner = center - glm::dvec2(half_extent);
+  out.irradiance.assign(out.terms() * out.pixels(), 0.0f);
+  return out;
+}
+
+LightFieldBuilder::LightFieldBuilder(LightField empty)
+    : field_(std::move(empty)), sums_(field_.terms() * field_.pixels(), 0.0) {}
+
+void LightFieldBuilder::add(std::span<const SourceRay> rays) {
+  const int margin = margin_of(field_.basis);
+  for (const SourceRay& ray : rays) {
+    const auto flux = static_cast<double>(ray.flux);
+    const glm::dvec3 p(ray.position), d(ray.direction);
+    const double down = -d.z;
+    if (!(down > 1e-6)) {
+      lost_ += flux;
+      continue;
+    }
+    const glm::dvec2 uv = glm::dvec2(p) + glm::dvec2(d) * (p.z / down);
+    const glm::dvec2 st = uv + glm::dvec2(d) * (field_.distance / down);
+    const glm::dvec2 at = (uv - field_.first) / field_.spacing, where = (st - field_.corner) / field_.pixel;
+    const auto s = static_cast<int>(std::floor(where.x)), t = static_cast<int>(std::floor(where.y));
+    // Only where all its filters are there does a ray keep its flux.
+    const bool inside = at.x >= margin - 1 && at.y >= margin - 1 && at.x <= field_.columns - margin &&
+                        at.y <= field_.rows - margin;
+    if (!inside || s < 0 || t < 0 || s >= field_.width || t >= field_.height) {
+      lost_ += flux;
+      continue;
+    }
+    kept_ += flux;
+    const Filters fx = filters_at(field_.basis, at.x), fy = filters_at(field_.basis, at.y);
+    const std::size_t pixel =
+        static_cast<std::size_t>(t) * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(s);
+    for (int j = 0; j < fy.count; ++j)
+      for (int i = 0; i < fx.count; ++i) {
+        const int m = fx.begin + i, n = fy.begin + j;
+        if (m < 0 || n < 0 || m >= field_.columns || n >= field_.rows)
+          continue;  // weight 0 at the reach itself
+        const std::size_t term = static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
+                                 static_cast<std::size_t>(m);
+        sums_[term * field_.pixels() + pixel] += flux * fx.weight[i] * fy.weight[j];
+      }
+  }
+}
+
+LightField LightFieldBuilder::finish() && {
+  const std::size_t pixels = field_.pixels(), columns = static_cast<std::size_t>(field_.columns),
+                    rows = static_cast<std::size_t>(field_.rows);
+  if (field_.basis == NearBasis::spline) {
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      for (std::size_t n = 0; n < rows; ++n)
+        spline_dual(&sums_[n * columns * pixels + pixel], columns, pixels);
+      for (std::size_t m = 0; m < columns; ++m)
+        spline_dual(&sums_[m * pixels + pixel], rows, columns * pixels);
+    }
+  }
+  const double area = field_.pixel * field_.pixel;
+  for (std::size_t i = 0; i < sums_.size(); ++i) field_.irradiance[i] = static_cast<float>(sums_[i] / area);
+  return std::move(field_);
+}
+
+double flux(const LightField& field) {
+  double sum = 0;
+  for (const float v : field.irradiance) sum += static_cast<double>(v);
+  return sum * field.pixel * field.pixel;
+}
+
+}  // namespace sconce

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "photometry/light_field.h"
+
+namespace sconce {
+
+namespace {
+
+/// d2 / R4 between a point of S and one of M, 1/m2: eq. 8's geometric term.
+double geometry(const LightField& field, const glm::dvec2& uv, const glm::dvec2& st) {
+  const glm::dvec2 across = st - uv;
+  const double d2 = field.distance * field.distance, r2 = glm::dot(across, across) + d2;
+  return d2 / (r2 * r2);
+}
+
+/// Where the line from a point of S through x (below S) meets M.
+glm::dvec2 onto_m(const LightField& field, const glm::dvec2& uv, const glm::dvec3& x) {
+  return uv + (glm::dvec2(x) - uv) * (field.distance / -x.z);
+}
+
+/// cos at the lamp x cos at the surface / distance2; 0 behind either.
+double form(const glm::dvec2& uv, const glm::dvec3& x, const glm::dvec3& normal) {
+  const glm::dvec3 to = glm::dvec3(uv, 0) - x;
+  const double d2 = glm::dot(to, to), facing = glm::dot(to, normal);
+  return x.z < 0 && facing > 0 ? -x.z * facing / (d2 * d2) : 0;
+}
+
+}  // namespace
+
+NearLamp::NearLamp(LightField field) : field_(std::move(field)) {
+  const auto width = static_cast<std::size_t>(field_.width), height = static_cast<std::size_t>(field_.height);
+  if (field_.irradiance.size() != field_.terms() * field_.pixels())
+    throw Error("light field", "has images of another size than it says");
+  const std::size_t stride = (width + 1) * (height + 1);
+  areas_.assign(field_.terms() * stride, 0.0);
+  for (std::size_t term = 0; term < field_.terms(); ++term) {
+    double* table = &areas_[term * stride];
+    const auto image = field_.image(term);
+    const int columns = field_.columns;
+    const glm::dvec2 c = field_.center(static_cast<int>(term) % columns, static_cast<int>(term) / columns);
+    for (std::size_t t = 0; t < height; ++t) {
+      double row = 0;
+      for (std::size_t s = 0; s < width; ++s) {
+        const glm::dvec2 st = field_.corner + field_.pixel * (glm::dvec2(s, t) + 0.5);
+        row += static_cast<double>(image[t * width + s]) / geometry(field_, c, st);
+        table[(t + 1) * (width + 1) + s + 1] = table[t * (width + 1) + s + 1] + row;
+      }
+    }
+  }
+}
+
+double NearLamp::mean(std::size_t term, const glm::dvec2& st, double size) const {
+  const auto width = static_cast<std::size_t>(field_.width), height = static_cast<std::size_t>(field_.height);
+  const double* table = &areas_[term * (width + 1) * (height + 1)];
+  // Images are constant over a pixel, so the integral to any point is bilinear in the table.
+  const auto integral = [&](double x, double y) {
+    x = std::clamp(x, 0.0, static_cast<double>(width)), y = std::clamp(y, 0.0, static_cast<double>(height));
+    const auto i = std::min(static_cast<std::size_t>(x), width - 1),
+               j = std::min(static_cast<std::size_t>(y), height - 1);
+    const double fx = x - static_cast<double>(i), fy = y - static_cast<double>(j);
+    const double* at = table + j * (width + 1) + i;
+    return (at[0] * (1 - fx) + at[1] * fx) * (1 - fy) + (at[width + 1] * (1 - fx) + at[width + 2] * fx) * fy;
+  };
+  const glm::dvec2 at = (st - field_.corner) / field_.pixel;
+  const double half = 0.5 * std::max(1.0, size / field_.pixel);
+  return (integral(at.x + half, at.y + half) - integral(at.x - half, at.y + half) -
+          integral(at.x + half, at.y - half) + integral(at.x - half, at.y - half)) /
+         (4 * half * half);
+}
+
+double NearLamp::radiance(const glm::dvec2& uv, const glm::dvec2& st) const {
+  const glm::dvec2 where = (st - field_.corner) / field_.pixel, at = (uv - field_.first) / field_.spacing;
+  const auto s = static_cast<int>(std::floor(where.x)), t = static_cast<int>(std::floor(where.y));
+  if (s < 0 || t < 0 || s >= field_.width || t >= field_.height) return 0;
+  const std::size_t pixel =
+      static_cast<std::size_t>(t) * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(s);
+  const double reach = basis_reach(field_.basis);
+  double sum = 0;
+  for (int n = std::max(0, static_cast<int>(std::ceil(at.y - reach)));
+       n <= std::min(field_.rows - 1.0, at.y + reach); ++n)
+    for (int m = std::max(0, static_cast<int>(std::ceil(at.x - reach)));
+         m <= std::min(field_.columns - 1.0, at.x + reach); ++m) {
+      const std::size_t term = static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
+                               static_cast<std::size_t>(m);
+      sum += basis_at(field_.basis, at.x - m) * basis_at(field_.basis, at.y - n) *
+             static_cast<double>(field_.irradiance[term * field_.pixels() + pixel]);
+    }
+  return sum / (geometry(field_, uv, st) * field_.spacing * field_.spacing);
+}
+
+double NearLamp::exact(const Vec3& point, const Vec3& normal, int points) const {
+  const glm::dvec3 x(point), n(normal);
+  if (!(x.z < 0)) return 0;
+  const double reach = basis_reach(field_.basis), step = field_.spacing / points;
+  const int columns = static_cast<int>((field_.columns - 1 + 2 * reach) * points),
+            rows = static_cast<int>((field_.rows - 1 + 2 * reach) * points);
+  const glm::dvec2 start = field_.first - glm::dvec2(reach * field_.spacing);
+  double sum = 0;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const glm::dvec2 uv = start + step * (glm::dvec2(i, j) + 0.5);
+      const double f = form(uv, x, n);
+      if (f > 0) sum += f * radiance(uv, onto_m(field_, uv, x));
+    }
+  return sum * step * step;
+}
+
+double NearLamp::term(int m, int n, const Vec3& point, const Vec3& normal) const {
+  const glm::dvec3 x(point);
+  const glm::dvec2 c = field_.center(m, n);
+  const double f = form(c, x, glm::dvec3(normal));
+  if (f == 0) return 0;
+  // The filter seen from x covers this much of M.
+  const double window = field_.spacing * std::abs(1 - field_.distance / -x.z);
+  return f * mean(static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
+                      static_cast<std::size_t>(m),
+                  onto_m(field_, c, x), window);
+}
+
+double NearLamp::approximate(const Vec3& x, const Vec3& normal) const {
+  double sum = 0;
+  for (int n = 0; n < field_.rows; ++n)
+    for (int m = 0; m < field_.columns; ++m) sum += term(m, n, x, normal);
+  return sum;
+}
+
+double NearLamp::bound(const Vec3& x, const Vec3& normal) const {
+  if (!(x.z < 0)) return 0;
+  double error = 0, sum = 0;
+  const double depth = static_cast<double>(-x.z), bell_width = 2 * basis_reach(field_.basis) * field_.spacing,
+               dual_width = 4 * field_.spacing;
+  for (int n = 0; n < field_.rows; ++n)
+    for (int m = 0; m < field_.columns; ++m) {
+      const double value = term(m, n, x, normal);
+      const double tangent = glm::length(glm::dvec2(glm::dvec3(x)) - field_.center(m, n)) / depth;
+      sum += value;
+      error += std::abs(value) * (geometric_spread(tangent, dual_width / field_.distance) +
+                                  geometric_spread(tangent, bell_width / depth));
+    }
+  return sum > 0 ? error / sum : 0;
+}
+
+double NearLamp::illuminance(const Vec3& x, const Vec3& normal, double tolerance) const {
+  return bound(x, normal) > tolerance ? exact(x, normal) : approximate(x, normal);
+}
+
+Photometry far_field(const NearLamp& lamp, double step) {
+  const LightField& field = lamp.field();
+  Photometry out;
+  out.format = "light field";
+  out.absolute = true;
+  out.lamps = {LampSet{}};
+  const int planes = static_cast<int>(std::lround(360 / step)),
+            zones = static_cast<int>(std::lround(90 / step));
+  for (int g = 0; g <= zones; ++g) out.polars.push_back(90.0 * g / zones);
+  // Seen from so far that all filters are in one place: d2 E is the intensity.
+  const float far = 1e4f * static_cast<float>(field.spacing * std::max(field.columns, field.rows));
+  for (int a = 0; a <= planes; ++a) {
+    out.azimuths.push_back(360.0 * a / planes);
+    for (const double gamma : out.polars) {
+      const Vec3 direction = direction_of(Photometry::Type::c, a < planes ? out.azimuths.back() : 0, gamma);
+      const double e = lamp.approximate(far * direction, -direction);
+      out.candela.push_back(std::max(0.0, e) * static_cast<double>(far) * static_cast<double>(far));
+    }
+  }
+  return out;
+}
+
+LightField coarser(const LightField& field) {
+  LightField out = field;
+  out.columns = (field.columns + 1) / 2;
+  out.rows = (field.rows + 1) / 2;
+  out.spacing = 2 * field.spacing;
+  out.first = field.first + 0.5 * field.spacing;
+  out.irradiance.assign(out.terms() * out.pixels(), 0.0f);
+  const NearLamp lamp(field);
+  for (int n = 0; n < out.rows; ++n)
+    for (int m = 0; m < out.columns; ++m) {
+      const glm::dvec2 c = out.center(m, n);
+      float* image = &out.irradiance[(static_cast<std::size_t>(n) * static_cast<std::size_t>(out.columns) +
+                                      static_cast<std::size_t>(m)) *
+                                     out.pixels()];
+      for (int t = 0; t < out.height; ++t)
+        for (int s = 0; s < out.width; ++s) {
+          const glm::dvec2 st = out.corner + out.pixel * (glm::dvec2(s, t) + 0.5);
+          double sum = 0;
+          for (int j = 2 * n; j < std::min(2 * n + 2, field.rows); ++j)
+            for (int i = 2 * m; i < std::min(2 * m + 2, field.columns); ++i)
+              sum += lamp.towards(i, j, st - c);
+          *image++ = static_cast<float>(sum * geometry(out, c, st));
+        }
+    }
+  return out;
+}
+
+}  // namespace sconce
