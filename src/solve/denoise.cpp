@@ -25,7 +25,7 @@ struct Pass {
 };
 // Single texels are too noisy to be compared closely; each pass lends the next one a cleaner guide. All
 // filter the raw values. Radii and strictness were chosen by bench/denoise_main.cpp.
-constexpr Pass kPasses[] = {{1.8f, 13}, {4, 3}, {6, 3}};
+constexpr Pass kPasses[] = {{1.8f, 13}, {3, 2}, {9, 2}};
 constexpr float kStrictness = 0.2f;  // of a weight's fall with the squared difference, in variances
 constexpr float kVarianceRadius = 3;
 

@@ -86,7 +86,7 @@ TEST(Denoise, SumsOfGroupsStaySums) {
     }
 }
 
-// The last pass reaches 6 spacings with weights (1 - r^2)^2: sum pi 36 / 3, sum of squares pi 36 / 5, so 62.8
+// The last pass reaches 9 spacings with weights (1 - r^2)^2: sum pi 81 / 3, sum of squares pi 81 / 5, so 141
 // texels count; guides that follow the noise cost some of them.
 TEST(Denoise, WhiteNoiseFalls) {
   const auto truth = [](uint32_t) { return 10.0f; };
