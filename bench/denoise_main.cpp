@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Denoised at few samples against undenoised at many, per group and for all light together, over all texels of an atlas: relmse, the
-// mean of (x - r)^2 / (r^2 + (mean / 10)^2); mse, over the squared mean; both freed of the reference's noise
-// and weighted by area; stated, what the texels' errors say the mse is; mean, how far the layer's mean is
-// off; gain, error of the many over error of the few denoised. Default: three scenes below SCONCE_TEST_DATA;
-// or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples, REFERENCE (1024), PAGE (256;
-// the kitchen 512), SOLVER (path), CACHE (folder that keeps the bakes for the next run).
+// Denoised at few samples against undenoised at many, per group and for all light together, over all texels
+// of an atlas: relmse, the mean of (x - r)^2 / (r^2 + (mean / 10)^2); mse, over the squared mean; both freed
+// of the reference's noise and weighted by area; stated, what the texels' errors say the mse is; mean, how
+// far the layer's mean is off; gain, error of the many over error of the few denoised. Default: three scenes
+// below SCONCE_TEST_DATA; or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples,
+// REFERENCE (1024), PAGE (256; the kitchen 512), SOLVER (path), CACHE (folder that keeps the bakes for the
+// next run).
 #include <fmt/format.h>
 
 #include <chrono>
@@ -132,8 +133,8 @@ void run(const std::string& path) {
                        const std::vector<GroupValue>& many_clean, const std::vector<GroupValue>& truth) {
     fmt::print("{:<20}", group);
     const Score low_score = score(bench, few_clean, truth), high_score = score(bench, many, truth);
-    for (const auto& [before, after] : {std::pair(score(bench, few, truth), low_score),
-                                        {high_score, score(bench, many_clean, truth)}})
+    for (const auto& [before, after] :
+         {std::pair(score(bench, few, truth), low_score), {high_score, score(bench, many_clean, truth)}})
       fmt::print("{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>8.2f}%{:>2}", before.relative,
                  before.mse, before.stated, after.relative, after.mse, after.stated, 100 * after.mean, "");
     fmt::print("{:>7.2f}x{:>7.2f}x\n", high_score.relative / low_score.relative,

@@ -120,6 +120,22 @@ TEST(Denoise, ShadowEdgesOfAnyGroupStay) {
   EXPECT_LT(mean_square(clean[0], lit), 0.09 / 15);
 }
 
+// The noise of the light is larger than the darkness, but not the noise in the dark.
+TEST(Denoise, NoisyLightStaysOutOfTheDark) {
+  const int side = 40;
+  const TexelGraph graph = open_graph(plane(side));
+  std::vector<GroupValue> values;
+  for (uint32_t i = 0; i < graph.size(); ++i) {
+    const float value = i % side < 20 ? 10.0f : 0.1f, sigma = 0.4f * value;
+    values.push_back({Rgb(value + sigma * normal_number(i, 10)), sigma});
+  }
+  const Values clean = denoise(graph, Values{values});
+  double edge = 0;
+  for (uint32_t y = 0; y < side; ++y)
+    edge += static_cast<double>(clean[0][y * side + 20].illuminance.g) / side;
+  EXPECT_NEAR(edge, 0.1, 0.02);
+}
+
 // Linear over the plane: weights are centred on the texel as far as they can.
 TEST(Denoise, SlopesStay) {
   const int side = 40;
