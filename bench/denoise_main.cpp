@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Denoised at few samples against undenoised at many, per group, over all texels of an atlas: relmse, the
-// mean of (x - r)^2 / (r^2 + (mean / 10)^2); mse, over the squared mean; both freed of the reference's noise
-// and weighted by area; stated, what the texels' errors say the mse is; mean, how far the layer's mean is
-// off; gain, error of the many over error of the few denoised. Default: three scenes below SCONCE_TEST_DATA;
-// or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples, REFERENCE (1024), PAGE (256;
-// the kitchen 512), SOLVER (path), CACHE (folder that keeps the bakes for the next run).
+// Denoised at few samples against undenoised at many, per group and for all light together, over all texels
+// of an atlas: relmse, the mean of (x - r)^2 / (r^2 + (mean / 10)^2); mse, over the squared mean; both freed
+// of the reference's noise and weighted by area; stated, what the texels' errors say the mse is; mean, how
+// far the layer's mean is off; gain, error of the many over error of the few denoised. Default: three scenes
+// below SCONCE_TEST_DATA; or denoise SCENE... Options by environment: LOW (64) and HIGH (512) samples,
+// REFERENCE (1024), PAGE (256; the kitchen 512), SOLVER (path), CACHE (folder that keeps the bakes for the
+// next run).
 #include <fmt/format.h>
 
 #include <chrono>
@@ -91,6 +92,17 @@ Score score(const Bench& bench, const std::vector<GroupValue>& x, const std::vec
   return s;
 }
 
+/// All groups' light together; their errors as if independent.
+std::vector<GroupValue> sum(const Values& values) {
+  std::vector<GroupValue> all(values.front().size());
+  for (const std::vector<GroupValue>& group : values)
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].illuminance += group[i].illuminance;
+      all[i].error = std::hypot(all[i].error, group[i].error);
+    }
+  return all;
+}
+
 void run(const std::string& path) {
   Scene scene = import_scene(path);
   const std::string name = std::filesystem::path(path).stem().string();
@@ -116,16 +128,21 @@ void run(const std::string& path) {
     fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>2}", "relmse", "mse", "stated", "relmse", "mse",
                "stated", "mean", "");
   fmt::print("{:>8}{:>8}\n", "relmse", "mse");
-  for (std::size_t g = 0; g < groups; ++g) {
-    fmt::print("{:<20}", bench.scene.groups[g].name);
-    const Score raw = score(bench, low[g], reference[g]), clean_low = score(bench, clean[g], reference[g]),
-                more = score(bench, high[g], reference[g]);
+  const auto row = [&](const std::string& group, const std::vector<GroupValue>& few,
+                       const std::vector<GroupValue>& few_clean, const std::vector<GroupValue>& many,
+                       const std::vector<GroupValue>& many_clean, const std::vector<GroupValue>& truth) {
+    fmt::print("{:<20}", group);
+    const Score low_score = score(bench, few_clean, truth), high_score = score(bench, many, truth);
     for (const auto& [before, after] :
-         {std::pair(raw, clean_low), {more, score(bench, clean_high[g], reference[g])}})
+         {std::pair(score(bench, few, truth), low_score), {high_score, score(bench, many_clean, truth)}})
       fmt::print("{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>9.2e}{:>8.2f}%{:>2}", before.relative,
                  before.mse, before.stated, after.relative, after.mse, after.stated, 100 * after.mean, "");
-    fmt::print("{:>7.2f}x{:>7.2f}x\n", more.relative / clean_low.relative, more.mse / clean_low.mse);
-  }
+    fmt::print("{:>7.2f}x{:>7.2f}x\n", high_score.relative / low_score.relative,
+               high_score.mse / low_score.mse);
+  };
+  for (std::size_t g = 0; g < groups; ++g)
+    row(bench.scene.groups[g].name, low[g], clean[g], high[g], clean_high[g], reference[g]);
+  row("all of them", sum(low), sum(clean), sum(high), sum(clean_high), sum(reference));
   std::fflush(stdout);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How cost grows: time and peak memory of a solver against receivers, triangles, groups, bounces and threads,
-// with the exponent of a power law fitted to each (least squares in logarithms), as Markdown.
+// with the exponent of a power law fitted to each (least squares in logarithms), as Markdown. CPU time of all
+// threads, which a busy machine does not lengthen much, and the wall clock.
 // growth [SOLVER [SAMPLES [LARGEST]]]; LARGEST scales down the largest triangle count (default 1000000).
 // Receivers are points spread over the surfaces by area: unwrapping is no solver's cost and is not part.
 // Every row runs in a process of its own, so that its peak memory is its own.
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <thread>
 
 #include "core/parallel.h"
@@ -30,7 +32,8 @@ struct Setup {
 };
 
 struct Cost {
-  double prepare = 0, solve = 0;  ///< seconds
+  double prepare = 0, solve = 0;  ///< seconds of CPU
+  double wall = 0;                ///< seconds, of both
   double megabytes = 0;           ///< peak
 };
 
@@ -56,8 +59,8 @@ Scene make_scene(const Setup& setup) {
   return scene;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 Cost run(const Setup& setup) {
@@ -72,12 +75,12 @@ Cost run(const Setup& setup) {
   params.bounces = setup.bounces;
 
   Cost cost;
-  auto start = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds();
   const Tracer tracer(scene, world);
   const Lamps lamps(scene, world);
   const auto solver = find_solver(setup.solver).prepare({scene, world, tracer, lamps}, params, {});
-  cost.prepare = seconds_since(start);
-  start = std::chrono::steady_clock::now();
+  cost.prepare = cpu_seconds() - cpu;
   parallel_for(setup.receivers, 64, [&](std::size_t i) {
     Vec2 u = sobol_pair(static_cast<uint32_t>(i), 0, 1);
     const std::size_t t = by_area.sample(u.x);
@@ -87,7 +90,8 @@ Cost run(const Setup& setup) {
     solver->solve(Footprint::point(id, ReceiverKind::plane, {world.position(t, square_to_triangle(u)), n, n}),
                   out);
   });
-  cost.solve = seconds_since(start);
+  cost.solve = cpu_seconds() - cpu - cost.prepare;
+  cost.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return cost;
 }
 
@@ -136,20 +140,22 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 /// @param set  changes a setup to that value
 template <class F>
 void sweep(const char* what, const Setup& base, const std::vector<double>& at, F&& set) {
-  fmt::print("\n| {} | prepare s | solve s | peak MB |\n|---:|---:|---:|---:|\n", what);
-  std::vector<double> prepare, solve, memory;
+  fmt::print("\n| {} | prepare CPU s | solve CPU s | wall s | peak MB |\n|---:|---:|---:|---:|---:|\n", what);
+  std::vector<double> prepare, solve, wall, memory;
   for (const double value : at) {
     Setup setup = base;
     set(setup, value);
     const Cost cost = measure(setup);
     prepare.push_back(cost.prepare);
     solve.push_back(cost.solve);
+    wall.push_back(cost.wall);
     memory.push_back(cost.megabytes);
-    fmt::print("| {:.0f} | {:.3f} | {:.3f} | {:.0f} |\n", value, cost.prepare, cost.solve, cost.megabytes);
+    fmt::print("| {:.0f} | {:.3f} | {:.3f} | {:.3f} | {:.0f} |\n", value, cost.prepare, cost.solve, cost.wall,
+               cost.megabytes);
     std::fflush(stdout);
   }
-  fmt::print("| exponent | {:.2f} | {:.2f} | {:.2f} |\n", exponent(at, prepare), exponent(at, solve),
-             exponent(at, memory));
+  fmt::print("| exponent | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", exponent(at, prepare), exponent(at, solve),
+             exponent(at, wall), exponent(at, memory));
 }
 
 }  // namespace

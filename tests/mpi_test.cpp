@@ -112,6 +112,24 @@ TEST_F(Mpi, ErrorsAreSaidOnce) {
   EXPECT_EQ(outcome.err.find(line, at + 1), std::string::npos) << outcome.err;
 }
 
+TEST_F(Mpi, RankThatSeesAnotherSceneOrNoneIsNamed) {
+  Scene changed = test::two_lamp_room();
+  changed.materials.front().base_color *= 0.5f;
+  const std::string other = folder.write("other.glb", write_glb(changed, "test")),
+                    broken = folder.write("broken.glb", "glTF");
+  for (const auto& [second, line] :
+       {std::pair(other, std::string("rank 1: sees another scene")), {broken, "rank 1: " + broken}}) {
+    Words words = bake("x");
+    words[1] = second;
+    std::string prefix = mpirun(1) + " " SCONCE_PROGRAM;
+    for (const std::string& word : bake("x")) prefix += " " + word;
+    const test::Outcome outcome = test::run_sconce(words, prefix + " : -n 1");
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("sconce bake: " + line), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "x"));
+  }
+}
+
 TEST_F(Mpi, DeadRankEndsTheJobAndAnotherNumberOfRanksResumes) {
   const Words fine{"--samples", "512", "--solver", "path", "--resume"};
   const auto run = [&](const std::string& output, const std::string& prefix) {

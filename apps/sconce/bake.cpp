@@ -77,16 +77,6 @@ void check_writable(const fs::path& output) {
     throw Error(output.string(), "exists and is no package, so it is left alone");
 }
 
-/// Ranks that saw other files or run other instructions would bake parts that do not fit together.
-void check_agreement(const PreparedBake& bake, const RankSession& session) {
-  const std::vector<std::string> all =
-      session.ranks().allgather(bake.header().hash + bake.header().isa + (bake.up_to_date() ? "stands" : ""));
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
-    if (all[rank] != all[0])
-      throw Error(fmt::format("rank {}", rank),
-                  "sees another scene or package or has another instruction set", "what rank 0 has");
-}
-
 /// Samples that fit the time; leaves the solver with them. All ranks together.
 int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const Ranks& ranks) {
   if (!solver.set_samples(kBatches))
@@ -108,6 +98,7 @@ int execute(const Request& request, const Options& options, RankSession& session
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
+  const Ranks ranks = session.ranks();
   std::optional<PreparedBake> prepared;
   double time = request.given.time;
   session.together([&] {
@@ -121,15 +112,14 @@ int execute(const Request& request, const Options& options, RankSession& session
     // Shards are parts of a whole bake: what stands on one machine may stand on no other. How many samples
     // fit a time is not known before they are to be taken.
     const bool anew = request.force || request.shard || time > 0;
-    prepared.emplace(job, progress, anew ? fs::path() : request.output);
+    prepared.emplace(job, progress, anew ? fs::path() : request.output, ranks);
+    check_agreement(prepared->header().hash + (prepared->up_to_date() ? "stands" : ""), ranks);
   });
   const PreparedBake& bake = *prepared;
   if (request.dry_run) {
     print_plan(bake, options.json);
     return kDone;
   }
-  const Ranks ranks = session.ranks();
-  session.together([&] { check_agreement(bake, session); });
   if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
     return kDone;

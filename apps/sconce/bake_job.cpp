@@ -78,8 +78,9 @@ std::vector<std::string> hash_inputs(const BakeJob& job, const Scene& scene, con
   return layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa());
 }
 
-/// The texels of what is kept, or new ones.
-Atlas make_layout(const PreparedBake& bake, const Progress& progress) {
+/// The texels of what is kept, or new ones; ranks share what is computed from here on.
+Atlas make_layout(const PreparedBake& bake, const Ranks& ranks, const Progress& progress) {
+  check_agreement(join(bake.inputs, " ") + fmt::format(" {}", bake.plan.count(true)), ranks);
   if (bake.plan.count(false) == 0)
     return make_atlas(bake.scene, bake.world, bake.tracer, bake.job.atlas, progress);
   const Package& before = *bake.plan.before();
@@ -136,7 +137,17 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
   }
 }
 
-PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const std::filesystem::path& before)
+void check_agreement(std::string_view seen, const Ranks& ranks) {
+  if (ranks.count == 1) return;
+  const std::vector<std::string> all = ranks.allgather(seen);
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw Error(fmt::format("rank {}", rank),
+                  "sees another scene or package or has another instruction set", "what rank 0 has");
+}
+
+PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const std::filesystem::path& before,
+                           const Ranks& ranks)
     : job(job_),
       scene(load(job, progress)),
       world(make_world(scene)),
@@ -146,8 +157,8 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
       wanted(plan.wanted()),
       tracer(scene, world),
       lamps(scene, world),
-      atlas(make_layout(*this, progress)),
-      receivers(world, tracer, atlas, progress),
+      atlas(make_layout(*this, ranks, progress)),
+      receivers(world, tracer, atlas, progress, ranks),
       hash(bake_hash(job, scene, receivers)) {
   find_solver(job.solver);
   for (const std::string& warning : atlas.report.warnings) progress.warn(warning);

@@ -46,7 +46,9 @@ struct PreparedBake {
 
   /// @param before  a package whose layers are kept where nothing that they depend on has changed, on its own
   /// texels; empty or not there = all is solved
-  PreparedBake(const BakeJob& job, const Progress& progress, const std::filesystem::path& before = {});
+  /// @param ranks  share the search for buried texels; all must see the same
+  PreparedBake(const BakeJob& job, const Progress& progress, const std::filesystem::path& before = {},
+               const Ranks& ranks = {});
   PreparedBake(const PreparedBake&) = delete;
   PreparedBake& operator=(const PreparedBake&) = delete;
 
@@ -59,6 +61,10 @@ struct PreparedBake {
   /// Whether the package that stands is what this bake would write.
   bool up_to_date() const;
 };
+
+/// @param seen  what must be the same on all ranks: they would bake parts that do not fit together
+/// @throws Error naming the first rank that is not like rank 0
+void check_agreement(std::string_view seen, const Ranks& ranks);
 
 /// The job's solver, made ready for the groups that are not kept. All ranks together.
 /// @param state  its path; programs of others work beside it

@@ -7,29 +7,41 @@
 
 namespace sconce::app {
 
-Ranks RankSession::ranks() const {
-  return {index_, count_, [this](std::string_view mine) { return allgather(mine); }};
+namespace {
+
+// What goes round begins with one of these, so that a rank that fails is understood wherever others wait.
+constexpr char kData = '+', kFailed = '!';
+
+}  // namespace
+
+Ranks RankSession::ranks() {
+  return {index_, count_, [this](std::string_view mine) { return exchange(mine); }};
+}
+
+std::vector<std::string> RankSession::exchange(std::string_view mine) {
+  std::vector<std::string> all = allgather(kData + std::string(mine));
+  for (std::size_t rank = 0; rank < all.size(); ++rank) {
+    if (all[rank].front() == kFailed) {
+      all_failed_ = true;
+      throw Error("rank " + std::to_string(rank), all[rank].substr(1));
+    }
+    all[rank].erase(0, 1);
+  }
+  return all;
 }
 
 void RankSession::together(const std::function<void()>& f) {
   if (count_ == 1) return f();
-  std::string mine;
-  std::exception_ptr own;
   try {
     f();
   } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
-    own = std::current_exception();
-    mine = std::string("!") + error.what();
-  }
-  const std::vector<std::string> all = allgather(mine);
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    if (all[rank].empty()) continue;
+    if (!all_failed_) allgather(kFailed + std::string(error.what()));
     all_failed_ = true;
-    if (own) std::rethrow_exception(own);
-    throw Error("rank " + std::to_string(rank), all[rank].substr(1));
+    throw;
   }
+  exchange({});
 }
 
 int RankSession::guard(const std::function<int()>& f) {

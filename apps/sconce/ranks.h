@@ -20,12 +20,12 @@ class RankSession {
   RankSession(const RankSession&) = delete;
   RankSession& operator=(const RankSession&) = delete;
 
-  Ranks ranks() const;
+  Ranks ranks();
   /// A stop request ends waiting for other ranks, too.
   void watch(std::stop_token stop) { stop_ = std::move(stop); }
 
-  /// Runs f on every rank and waits for all. Where it threw, so does every rank: its own error or the first
-  /// other, named by its rank.
+  /// Runs f on every rank and waits for all; f may exchange. Where it threw, so does every rank: its own error
+  /// or the first other, named by its rank.
   void together(const std::function<void()>& f);
   /// Runs the job. An error that all ranks know is the first one's to tell; one that only this rank knows is
   /// printed and ends all of them.
@@ -33,6 +33,7 @@ class RankSession {
   int guard(const std::function<int()>& f);
 
  private:
+  std::vector<std::string> exchange(std::string_view mine);
   std::vector<std::string> allgather(std::string_view mine) const;
   [[noreturn]] void abort(const std::string& line) const;
 

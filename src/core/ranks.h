@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -9,6 +10,17 @@
 #include <vector>
 
 namespace sconce {
+
+/// A span as bytes, and back: takes `to.size()` values off the front.
+template <class T>
+void put_span(std::string& bytes, std::span<const T> values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+}
+template <class T>
+void take_span(std::string_view& bytes, std::span<T> to) {
+  std::memcpy(to.data(), bytes.data(), to.size_bytes());
+  bytes.remove_prefix(to.size_bytes());
+}
 
 /// Processes that work on one job, each with all of its input. Passed in, never global; the default is one
 /// process alone.
@@ -34,17 +46,17 @@ struct Ranks {
     for (std::size_t block = 0; block < blocks; ++block)
       if (!mine(block)) unpack(block, left[block % static_cast<std::size_t>(count)]);
   }
+  /// The same for plain values, so many to a block.
+  template <class T>
+  void share(std::span<T> values, std::size_t per_block) const {
+    if (values.empty()) return;
+    const auto part = [&](std::size_t block) {
+      return values.subspan(block * per_block, std::min(per_block, values.size() - block * per_block));
+    };
+    share((values.size() + per_block - 1) / per_block,
+          [&](std::size_t block, std::string& bytes) { put_span<T>(bytes, part(block)); },
+          [&](std::size_t block, std::string_view& bytes) { take_span<T>(bytes, part(block)); });
+  }
 };
-
-/// A span as bytes, and back: takes `to.size()` values off the front.
-template <class T>
-void put_span(std::string& bytes, std::span<const T> values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-}
-template <class T>
-void take_span(std::string_view& bytes, std::span<T> to) {
-  std::memcpy(to.data(), bytes.data(), to.size_bytes());
-  bytes.remove_prefix(to.size_bytes());
-}
 
 }  // namespace sconce

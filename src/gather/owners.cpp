@@ -147,12 +147,7 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
     else
       owners[c].sample = weights[c] >= kLeastShare ? kOrphan : first.nearest(at);
   });
-  const auto block_of = [&](std::size_t block) {
-    return std::span(owners).subspan(block * kGrain, std::min(kGrain, owners.size() - block * kGrain));
-  };
-  ranks.share((cells.size() + kGrain - 1) / kGrain,
-              [&](std::size_t block, std::string& bytes) { put_span<Owner>(bytes, block_of(block)); },
-              [&](std::size_t block, std::string_view& bytes) { take_span<Owner>(bytes, block_of(block)); });
+  ranks.share(std::span(owners), kGrain);
   for (uint32_t s = 0; s < seeds.size(); ++s)
     owners[seeds[s]] = {s, trust(world, tracer, cells, seeds[s], points[s])};
 

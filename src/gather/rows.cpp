@@ -116,10 +116,6 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
                       std::span(result.once).subspan(width * i, width));
     progress.at("gather rows", ++done, blocks);
   });
-  const auto once_of = [&](std::size_t block) {
-    const std::size_t first = block * kBlock, end = std::min(cloud.size(), first + kBlock);
-    return std::span(result.once).subspan(width * first, width * (end - first));
-  };
   ranks.share(
       blocks,
       [&](std::size_t block, std::string& bytes) {
@@ -127,7 +123,6 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
         put_span<uint64_t>(bytes, part.first);
         put_span<uint32_t>(bytes, part.columns);
         put_span<uint16_t>(bytes, part.counts);
-        put_span<float>(bytes, once_of(block));
       },
       [&](std::size_t block, std::string_view& bytes) {
         SparseRows& part = parts[block];
@@ -137,8 +132,8 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
         part.counts.resize(part.first.back());
         take_span<uint32_t>(bytes, part.columns);
         take_span<uint16_t>(bytes, part.counts);
-        take_span<float>(bytes, once_of(block));
       });
+  ranks.share(std::span(result.once), width * kBlock);
   SparseRows& rows = result.rows;
   for (SparseRows& part : parts) {
     const uint64_t base = rows.columns.size();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/ranks.h"
 #include "core/receiver.h"
 #include "image/image.h"
 #include "trace/tracer.h"
@@ -66,7 +67,9 @@ class TexelReceivers {
   /// whose points mostly see backs that no probe ray reached, or meet something right in front of them, are
   /// buried and do not count; texels without any other part are left out and counted invalid.
   /// @pre atlas comes from make_atlas() with the same world
-  TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas, const Progress& progress = {});
+  /// @param ranks  share the search for buried parts
+  TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas, const Progress& progress = {},
+                 const Ranks& ranks = {});
 
   std::size_t size() const { return texels_.size(); }
   std::size_t tiles() const { return (size() + kTile - 1) / kTile; }

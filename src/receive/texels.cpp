@@ -67,23 +67,36 @@ Coverage cover(const Atlas& atlas) {
   return result;
 }
 
+/// values[i] = f(i) for all of them, in blocks that ranks share; check() before each block.
+template <class T, class F, class Check>
+void fill(std::vector<T>& values, const Ranks& ranks, const F& f, const Check& check) {
+  constexpr std::size_t kBlock = 2048;
+  const std::size_t blocks = (values.size() + kBlock - 1) / kBlock;
+  parallel_for(blocks, 1, [&](std::size_t block) {
+    if (!ranks.mine(block)) return;
+    check(blocks);
+    for (std::size_t i = block * kBlock; i < std::min(values.size(), (block + 1) * kBlock); ++i)
+      values[i] = f(i);
+  });
+  ranks.share(std::span(values), kBlock);
+}
+
 /// Texels that need a closer look: those where a first look met something, and their neighbours.
 std::vector<uint8_t> suspects(const Atlas& atlas, const Coverage& coverage, const BurialTest& test,
-                              const Progress& progress) {
+                              const Progress& progress, const Ranks& ranks) {
   const std::size_t n = coverage.texels.size();
   std::vector<uint8_t> found(n, 0);
-  constexpr std::size_t kGrain = 2048;
   std::atomic<uint64_t> done = 0;
-  const std::size_t blocks = (n + kGrain - 1) / kGrain;
-  parallel_for(blocks, 1, [&](std::size_t block) {
-    progress.check();
-    for (std::size_t i = block * kGrain; i < std::min(n, (block + 1) * kGrain); ++i)
-      found[i] = test.clearly_free(coverage.texels[i], coverage.of(i)) ? 0 : 1;
-    progress.at("texels", ++done, blocks);
-  });
+  fill(
+      found, ranks,
+      [&](std::size_t i) -> uint8_t { return test.clearly_free(coverage.texels[i], coverage.of(i)) ? 0 : 1; },
+      [&](std::size_t blocks) {
+        progress.check();
+        progress.at("texels", ++done, blocks);
+      });
   std::vector<uint8_t> result = found;
   const auto width = static_cast<uint32_t>(atlas.width);
-  parallel_for(n, kGrain, [&](std::size_t i) {
+  parallel_for(n, 2048, [&](std::size_t i) {
     if (found[i] != 0) return;
     for (const int64_t step : {-1 - int64_t{width}, -int64_t{width}, 1 - int64_t{width}, int64_t{-1},
                                int64_t{1}, int64_t{width} - 1, int64_t{width}, int64_t{width} + 1}) {
@@ -100,16 +113,19 @@ std::vector<uint8_t> suspects(const Atlas& atlas, const Coverage& coverage, cons
 }  // namespace
 
 TexelReceivers::TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas,
-                               const Progress& progress)
+                               const Progress& progress, const Ranks& ranks)
     : world_(&world), atlas_(&atlas) {
   const Coverage coverage = cover(atlas);
   const std::size_t n = coverage.texels.size();
   const BurialTest test(world, tracer, atlas);
-  const std::vector<uint8_t> suspect = suspects(atlas, coverage, test, progress);
+  const std::vector<uint8_t> suspect = suspects(atlas, coverage, test, progress, ranks);
   std::vector<uint16_t> cells(n, kAllCells);
-  parallel_for(n, 512, [&](std::size_t i) {
-    if (suspect[i] != 0) cells[i] = test.free_cells(coverage.texels[i], coverage.of(i));
-  });
+  fill(
+      cells, ranks,
+      [&](std::size_t i) {
+        return suspect[i] != 0 ? test.free_cells(coverage.texels[i], coverage.of(i)) : kAllCells;
+      },
+      [&](std::size_t) { progress.check(); });
 
   // A chart that probe rays reach, yet whose every point seems buried, lies in a crack: dark, but there to be
   // seen.

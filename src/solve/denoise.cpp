@@ -25,9 +25,11 @@ struct Pass {
 };
 // Single texels are too noisy to be compared closely; each pass lends the next one a cleaner guide. All
 // filter the raw values. Radii and strictness were chosen by bench/denoise_main.cpp.
-constexpr Pass kPasses[] = {{1.8f, 13}, {4, 3}, {6, 3}};
+constexpr Pass kPasses[] = {{1.8f, 13}, {3, 2}, {9, 2}};
 constexpr float kStrictness = 0.2f;  // of a weight's fall with the squared difference, in variances
 constexpr float kVarianceRadius = 3;
+// What a texel's variance can be at most: so many times what it says, and this share of its neighbours'.
+constexpr float kMostDoubt = 16, kLeastDoubt = 0.05f;
 
 class Filter {
  public:
@@ -65,7 +67,7 @@ class Filter {
   }
 
   // Eight batches tell a texel's error to a quarter only, and a texel that missed what is rare believes in 0:
-  // its neighbours know better.
+  // its neighbours know better. But one in the shadow is not as noisy as what lies in the light beside it.
   void smooth_variances() {
     variances_.resize(raw_.size());
     guides_.resize(raw_.size());
@@ -78,8 +80,10 @@ class Filter {
           sum += step.weight * error * error;
           weight += step.weight;
         }
-        variances_[i * groups_ + g] = sum / weight;
-        guides_[i * groups_ + g] = {luminance(raw_[i * groups_ + g].illuminance), sum / weight};
+        const float mean = sum / weight, own = raw_[i * groups_ + g].error;
+        const float variance = std::min(mean, kMostDoubt * own * own + kLeastDoubt * mean);
+        variances_[i * groups_ + g] = variance;
+        guides_[i * groups_ + g] = {luminance(raw_[i * groups_ + g].illuminance), variance};
       }
     });
   }

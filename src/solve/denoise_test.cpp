@@ -86,7 +86,7 @@ TEST(Denoise, SumsOfGroupsStaySums) {
     }
 }
 
-// The last pass reaches 6 spacings with weights (1 - r^2)^2: sum pi 36 / 3, sum of squares pi 36 / 5, so 62.8
+// The last pass reaches 9 spacings with weights (1 - r^2)^2: sum pi 81 / 3, sum of squares pi 81 / 5, so 141
 // texels count; guides that follow the noise cost some of them.
 TEST(Denoise, WhiteNoiseFalls) {
   const auto truth = [](uint32_t) { return 10.0f; };
@@ -118,6 +118,22 @@ TEST(Denoise, ShadowEdgesOfAnyGroupStay) {
       EXPECT_NEAR(clean[1][i].error, clean[0][i].error, 1e-6f);
     }
   EXPECT_LT(mean_square(clean[0], lit), 0.09 / 15);
+}
+
+// The noise of the light is larger than the darkness, but not the noise in the dark.
+TEST(Denoise, NoisyLightStaysOutOfTheDark) {
+  const int side = 40;
+  const TexelGraph graph = open_graph(plane(side));
+  std::vector<GroupValue> values;
+  for (uint32_t i = 0; i < graph.size(); ++i) {
+    const float value = i % side < 20 ? 10.0f : 0.1f, sigma = 0.4f * value;
+    values.push_back({Rgb(value + sigma * normal_number(i, 10)), sigma});
+  }
+  const Values clean = denoise(graph, Values{values});
+  double edge = 0;
+  for (uint32_t y = 0; y < side; ++y)
+    edge += static_cast<double>(clean[0][y * side + 20].illuminance.g) / side;
+  EXPECT_NEAR(edge, 0.1, 0.02);
 }
 
 // Linear over the plane: weights are centred on the texel as far as they can.

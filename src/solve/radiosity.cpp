@@ -124,13 +124,7 @@ class RadiositySolver final : public Solver {
       }
       progress.at("light on the cloud", ++done, blocks);
     });
-    const auto part = [&](std::size_t block) {
-      const std::size_t first = block * kBlock, end = std::min(cloud_->cells(), first + kBlock);
-      return std::span(direct).subspan(width * first, width * (end - first));
-    };
-    ranks.share(
-        blocks, [&](std::size_t block, std::string& bytes) { put_span<float>(bytes, part(block)); },
-        [&](std::size_t block, std::string_view& bytes) { take_span<float>(bytes, part(block)); });
+    ranks.share(std::span(direct), width * kBlock);
     return direct;
   }
 
