@@ -72,6 +72,8 @@ int run_bake(int argc, const char* const* argv);
 int run_merge(int argc, const char* const* argv);
 int run_mix(int argc, const char* const* argv);
 int run_render(int argc, const char* const* argv);
+int run_transfer(int argc, const char* const* argv);
+int run_relight(int argc, const char* const* argv);
 int run_diff(int argc, const char* const* argv);
 
 }  // namespace sconce::app

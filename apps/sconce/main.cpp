@@ -23,6 +23,8 @@ constexpr Verb kVerbs[] = {
     {"merge", "shards of one bake to a package", run_merge},
     {"mix", "a package and group settings to one lightmap", run_mix},
     {"render", "a package and group settings to a picture", run_render},
+    {"transfer", "a package to an operator that carries moved lamps' light through all bounces", run_transfer},
+    {"relight", "a package, its operator and moved lamps to a picture", run_relight},
     {"diff", "how far two images differ", run_diff},
 };
 

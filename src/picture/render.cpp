@@ -8,36 +8,13 @@
 #include "core/parallel.h"
 #include "core/sobol.h"
 #include "light/sky.h"
+#include "picture/lens.h"
 
 namespace sconce {
 
 namespace {
 
 constexpr int kTile = 32;  // pixels
-
-/// Camera rays of a picture; the vertical field of view is the camera's, the horizontal follows from the
-/// picture's shape.
-class Lens {
- public:
-  Lens(const Camera& camera, const PictureParams& params) : eye_(camera.frame[3]) {
-    const float up = std::tan(0.5f * camera.yfov);
-    const float right = up * static_cast<float>(params.width) / static_cast<float>(params.height);
-    // Unit axes: a camera below a scaled node still sees the world unscaled.
-    x_ = 2 * right / static_cast<float>(params.width) * normalize_or(Vec3(camera.frame[0]), Vec3(0));
-    y_ = -2 * up / static_cast<float>(params.height) * normalize_or(Vec3(camera.frame[1]), Vec3(0));
-    const Vec3 forward = normalize_or(-Vec3(camera.frame[2]), Vec3(0));
-    top_left_ = forward - 0.5f * static_cast<float>(params.width) * x_ -
-                0.5f * static_cast<float>(params.height) * y_;
-    const float size = glm::length(eye_) + glm::length(top_left_);
-    if (!(up > 0) || !std::isfinite(size) || x_ == Vec3(0) || y_ == Vec3(0) || forward == Vec3(0))
-      throw Error("camera '" + camera.name + "'", "has no usable frame or field of view");
-  }
-  /// @param p  in pixels from the top left
-  Ray ray(Vec2 p) const { return {eye_, glm::normalize(top_left_ + p.x * x_ + p.y * y_)}; }
-
- private:
-  Vec3 eye_, x_, y_, top_left_;
-};
 
 /// Bilinear between texel centres, clamped at the page's edges.
 Rgb bilinear(const Image& page, Vec2 uv) {
@@ -84,6 +61,20 @@ void check(const Manifest& m, const MixSpec& mix, const std::vector<Image>& page
 
 }  // namespace
 
+Lens::Lens(const Camera& camera, const PictureParams& params) : eye_(camera.frame[3]) {
+  const float up = std::tan(0.5f * camera.yfov);
+  const float right = up * static_cast<float>(params.width) / static_cast<float>(params.height);
+  // Unit axes: a camera below a scaled node still sees the world unscaled.
+  x_ = 2 * right / static_cast<float>(params.width) * normalize_or(Vec3(camera.frame[0]), Vec3(0));
+  y_ = -2 * up / static_cast<float>(params.height) * normalize_or(Vec3(camera.frame[1]), Vec3(0));
+  const Vec3 forward = normalize_or(-Vec3(camera.frame[2]), Vec3(0));
+  top_left_ =
+      forward - 0.5f * static_cast<float>(params.width) * x_ - 0.5f * static_cast<float>(params.height) * y_;
+  const float size = glm::length(eye_) + glm::length(top_left_);
+  if (!(up > 0) || !std::isfinite(size) || x_ == Vec3(0) || y_ == Vec3(0) || forward == Vec3(0))
+    throw Error("camera '" + camera.name + "'", "has no usable frame or field of view");
+}
+
 Rgb View::illuminance(const Side& side, Vec2 barycentric, const std::vector<Image>& pages) const {
   if (side.page < 0) return Rgb(0);
   const Vec2 uv = (1 - barycentric.x - barycentric.y) * side.uv[0] + barycentric.x * side.uv[1] +
@@ -91,7 +82,8 @@ Rgb View::illuminance(const Side& side, Vec2 barycentric, const std::vector<Imag
   return bilinear(pages[static_cast<std::size_t>(side.page)], uv);
 }
 
-View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const {
+View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+                      const std::function<Rgb(const SurfacePoint&)>& added) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   if (!hit) {
@@ -104,9 +96,11 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
     return seen;
   }
   const Shade surface = shade(scene_, world_, hit.triangle, hit.barycentric);
-  const Rgb light = illuminance((hit.back ? back_ : front_)[hit.triangle], hit.barycentric, pages);
+  Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
+  const bool lit = !hit.back || scene_[world_.materials[hit.triangle]].double_sided;
+  if (lit && added) light += added(surface_point(world_, hit));
   seen.radiance = surface.receiver_albedo() * light * kInvPi;
-  if (!hit.back || scene_[world_.materials[hit.triangle]].double_sided) {
+  if (lit) {
     seen.emitter = !surface.emission.is_black();
     seen.radiance += weight_of(mix, scene_[world_.instances[hit.triangle]].group) * surface.emission;
   }
@@ -114,7 +108,8 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
 }
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-                   const PictureParams& params, const Progress& progress, Image* coverage) const {
+                   const PictureParams& params, const Progress& progress, Image* coverage,
+                   const AddedLight& added) const {
   check(package_->manifest(), mix, pages, params);
   const Lens lens(camera, params);
   Image picture = Image::rgb(params.width, params.height);
@@ -128,8 +123,11 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     Rgb sum;
     int emitters = 0;
     for (int s = 0; s < params.samples; ++s) {
-      const Vec2 inside = Sampler(params.seed, id, static_cast<uint32_t>(s)).next();
-      const Seen seen = look(lens.ray(Vec2(x, y) + inside), mix, pages);
+      const auto sample = static_cast<uint32_t>(s);
+      const Vec2 inside = Sampler(params.seed, id, sample).next();
+      std::function<Rgb(const SurfacePoint&)> here;
+      if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, sample); };
+      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages, here);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

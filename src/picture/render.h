@@ -3,12 +3,17 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "core/progress.h"
 #include "mix/mix.h"
 #include "trace/tracer.h"
 
 namespace sconce {
+
+/// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux.
+/// Thread-safe.
+using AddedLight = std::function<Rgb(const SurfacePoint& at, int x, int y, uint32_t sample)>;
 
 struct PictureParams {
   int width = 1280, height = 720;
@@ -23,6 +28,12 @@ Camera look_at(const Vec3& eye, const Vec3& target);
 /// A package ready to be looked at: geometry, rays, lightmap coordinates. Thread-safe once built.
 class View {
  public:
+  /// Where one side of a triangle lies in the lightmap.
+  struct Side {
+    int page = -1;
+    std::array<Vec2, 3> uv{};  ///< [0,1], in the order of the World triangle's vertices
+  };
+
   /// Reads the scene and builds its rays. The package must outlive it. @throws Error naming the damaged file
   explicit View(const Package& package);
   View(const View&) = delete;
@@ -35,24 +46,23 @@ class View {
   /// @param pages     mix_pages() of the same mix
   /// @param coverage  when given: per pixel, the share of samples that see an emitter (or the sky), one
   /// channel
+  /// @param added     light beside the lightmap's; may be empty
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-               const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr) const;
+               const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
+               const AddedLight& added = {}) const;
 
   /// Without twins: their lightmap coordinates are kept beside the triangles they share.
   const Scene& scene() const { return scene_; }
   const World& world() const { return world_; }
+  const Tracer& tracer() const { return tracer_; }
   /// The named camera; the first one for an empty name; one at eye height (and a warning) where the scene has
   /// none.
   /// @throws UsageError naming the cameras
   Camera camera(std::string_view name, const Progress& progress = {}) const;
+  const Side& side(uint32_t triangle, bool back) const { return (back ? back_ : front_)[triangle]; }
 
  private:
-  /// Where one side of a triangle lies in the lightmap.
-  struct Side {
-    int page = -1;
-    std::array<Vec2, 3> uv{};  ///< [0,1], in the order of the World triangle's vertices
-  };
   struct Seen {
     Rgb radiance;  ///< cd/m2
     bool emitter = false;
@@ -68,7 +78,8 @@ class View {
   Side front_side(std::size_t triangle) const;
   Side back_side(std::size_t triangle) const;
   Rgb illuminance(const Side& side, Vec2 barycentric, const std::vector<Image>& pages) const;
-  Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const;
+  Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+            const std::function<Rgb(const SurfacePoint&)>& added) const;
   Camera eye_height_camera() const;
 
   const Package* package_;
