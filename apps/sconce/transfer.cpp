@@ -18,15 +18,6 @@ namespace sconce::app {
 
 namespace {
 
-Weighting find_weighting(const std::string& name) {
-  std::vector<std::string> names;
-  for (const WeightingRow& row : kWeightings) {
-    if (row.name == name) return row.weighting;
-    names.emplace_back(row.name);
-  }
-  throw UsageError("option '--weighting'", "unknown weighting '" + name + "'", join(names, ", "));
-}
-
 std::string options_text(const Options& options) {
   std::string text;
   for (const auto& [name, value] : options.provenance())
@@ -38,7 +29,7 @@ std::string options_text(const Options& options) {
 
 int run_transfer(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
-  std::string input, weighting = "root-area";
+  std::string input;
   bool lightmap = false;
   PictureOptions picture;
   TransferParams params;
@@ -52,13 +43,12 @@ int run_transfer(int argc, const char* const* argv) {
   options.option("--size", &picture.size, "of the camera's picture: WIDTHxHEIGHT, or WIDTH (default: 640)");
   options.option("--gather", &gather, "samples of the cloud that light is gathered from, a power of four");
   options.option("--rays", &params.rays, "per receiver");
-  options.option("--coefficients", &params.coefficients, "wavelet coefficients kept per receiver");
+  options.option("--cluster", &params.cluster, "receivers that share a basis of 16 rows, a multiple of 16");
+  options.option("--coefficients", &params.coefficients, "wavelet coefficients kept per basis");
   options.option("--bounce-coefficients", &params.bounce_coefficients,
-                 "the same for light between the cloud's samples");
-  options.option("--bounce-side", &params.bounce_side,
-                 "bounces see the cloud in blocks of so many samples a side: 1, 2, 4, 8");
+                 "the same per node of the cloud, for light that was reflected");
   options.option("--points", &params.points, "where direct light is asked for, per sample of the cloud");
-  options.option("--weighting", &weighting, "which coefficients are kept: root-area, area, none");
+  options.option("--lights", &params.lights, "lamps at random places that rows are fitted to");
   options.option("--seed", &seed, "of the random numbers");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (lightmap && !picture.camera.empty()) throw UsageError({}, "--lightmap and --camera exclude each other");
@@ -67,7 +57,6 @@ int run_transfer(int argc, const char* const* argv) {
   picture.check();
   params.gather = static_cast<std::size_t>(std::max(0, gather));
   params.seed = static_cast<uint32_t>(seed);
-  params.weighting = find_weighting(weighting);
 
   const ThreadLimit threads(options.threads);
   Operator op;
@@ -98,7 +87,7 @@ int run_transfer(int argc, const char* const* argv) {
                                            {"output", path.string()},
                                            {"receivers", op.gather.rows},
                                            {"gather", op.slots()},
-                                           {"coefficients_per_receiver", op.gather.macs_per_row()},
+                                           {"multiplications_per_receiver", op.gather.macs_per_row()},
                                            {"sweeps", op.sweeps},
                                            {"matrix_bytes", op.bytes()},
                                            {"bytes", bytes},

@@ -28,9 +28,9 @@ std::vector<uint8_t> seen_samples(const World& world, const Tracer& tracer, cons
       }
     });
   };
-  look(receivers.count, 0x72656376u,
-       [&](std::size_t i, Vec2 u) { return receivers.footprint(i).sample(u); });
-  look(cloud.size(), 0x73616d70u, [&](std::size_t i, Vec2 u) { return cloud.point(i, cloud.footprint(i), u); });
+  look(receivers.count, 0x72656376u, [&](std::size_t i, Vec2 u) { return receivers.footprint(i).sample(u); });
+  look(cloud.size(), 0x73616d70u,
+       [&](std::size_t i, Vec2 u) { return cloud.point(i, cloud.footprint(i), u); });
   return seen;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a direct-to-indirect operator: cloud, rows of the final gather F and of the cloud's own kernel K by
-// cosine-distributed rays that end on the cloud (methods.md 2.4), both as wavelet rows.
+// cosine-distributed rays that end on the cloud (methods.md 2.4), both fitted to
+// the light of lamps at many places.
 #pragma once
 
 #include "relight/receivers.h"
@@ -8,13 +9,13 @@
 namespace sconce {
 
 struct TransferParams {
-  std::size_t gather = 65536;    ///< slots of the cloud's square: a power of four, 256 to 65,536
-  int rays = 512;                ///< per receiver
-  int coefficients = 100;        ///< per receiver
-  int bounce_coefficients = 40;  ///< per sample of the cloud
-  int bounce_side = 4;           ///< bounces see the cloud in blocks of side x side slots: 1, 2, 4, ...
-  int points = 4;                ///< per slot, where direct light is asked for
-  Weighting weighting = Weighting::root_area;
+  std::size_t gather = 65536;     ///< slots of the cloud's square: a power of four, 256 to 65,536
+  int rays = 512;                 ///< per receiver
+  int cluster = 512;              ///< receivers that share a basis, a multiple of 16
+  int coefficients = 1024;        ///< of a basis
+  int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
+  int points = 4;                 ///< per slot, where direct light is asked for
+  int lights = 256;               ///< that rows are fitted to
   uint32_t seed = 1;
 };
 

@@ -21,21 +21,27 @@ struct WeightingRow {
 inline constexpr std::array<WeightingRow, 3> kWeightings{
     {{"root-area", Weighting::root_area}, {"area", Weighting::area}, {"none", Weighting::none}}};
 
+/// Squares of these weights, per coefficient of a square of n.
+std::vector<float> squared_weights(uint32_t n, Weighting weighting);
+
 /// Chooses one set of coefficients for several rows. Keeps its scratch, so that many choices are cheap.
 class CoefficientChooser {
  public:
-  /// @param n  columns, a power of four
-  CoefficientChooser(uint32_t n, Weighting weighting);
+  /// @param squares  per coefficient: by what a sum of squares is multiplied; must outlive it
+  explicit CoefficientChooser(std::span<const float> squares)
+      : squares_(squares), scores_(squares.size(), 0.0f) {}
 
-  /// The `count` details with the largest sum of squares over the rows, weighted; ties by index. The mean (0)
-  /// is not among them: it is always kept.
-  /// @return ascending; fewer where rows have fewer. Valid until the next call
-  std::span<const uint32_t> choose(std::span<const std::vector<SparseEntry>> rows, std::size_t count);
+  /// Of one row, or the sum over several.
+  void add(uint32_t coefficient, float square);
+  /// The `count` details with the largest weighted sums since the last choice; ties by index. The mean (0) is
+  /// not among them: it is always kept.
+  /// @return ascending; fewer where fewer were added. Valid until the next choice
+  std::span<const uint32_t> choose(std::size_t count);
 
  private:
-  std::array<float, 17> weights_{};  ///< by level, squared
-  std::vector<float> scores_;        ///< per coefficient; all 0 between calls
-  std::vector<uint32_t> touched_;
+  std::span<const float> squares_;
+  std::vector<float> scores_;  ///< per coefficient; all 0 between choices
+  std::vector<uint32_t> touched_, chosen_;
 };
 
 }  // namespace sconce

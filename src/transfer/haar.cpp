@@ -14,10 +14,10 @@ struct Values<float> {
   static constexpr std::size_t kCount = 1;
   static float* of(float* p) { return p; }
 };
-template <>
-struct Values<Rgbx> {
-  static constexpr std::size_t kCount = 4;
-  static float* of(Rgbx* p) { return p->data(); }
+template <std::size_t N>
+struct Values<std::array<float, N>> {
+  static constexpr std::size_t kCount = N;
+  static float* of(std::array<float, N>* p) { return p->data(); }
 };
 
 template <class T>
@@ -72,6 +72,9 @@ void haar_inverse(std::span<float> square) {
   inverse(square);
 }
 void haar_forward(std::span<Rgbx> square) {
+  forward(square);
+}
+void haar_forward(std::span<Sixteen> square) {
   forward(square);
 }
 void haar_inverse(std::span<Rgbx> square) {

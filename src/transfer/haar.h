@@ -39,11 +39,14 @@ constexpr uint32_t haar_support(uint32_t coefficient, uint32_t n) {
 
 /// RGB and one unused channel, so that a vector unit loads it whole.
 using Rgbx = std::array<float, 4>;
+/// One value of each of sixteen squares.
+using Sixteen = std::array<float, 16>;
 
 /// In place; both directions keep the sum of squares. @pre size a power of four, no more than 65,536
 void haar_forward(std::span<float> square);
 void haar_inverse(std::span<float> square);
 void haar_forward(std::span<Rgbx> square);
+void haar_forward(std::span<Sixteen> square);
 void haar_inverse(std::span<Rgbx> square);
 
 /// An entry of a sparse square, or of its transform.

@@ -44,11 +44,7 @@ Rgb unpack_albedo(const std::array<uint16_t, 4>& packed) {
 
 namespace {
 
-/// light = rho K light, on the coarse square. @param illuminance  scratch
-void sweep(const WaveletRows& bounce, std::span<const Rgbx> albedo, std::vector<Rgbx>& light,
-           std::vector<Rgb>& illuminance) {
-  haar_forward(light);
-  multiply(bounce, light, illuminance);
+void reflect(std::span<const Rgb> illuminance, std::span<const Rgbx> albedo, std::span<Rgbx> light) {
   for (std::size_t i = 0; i < light.size(); ++i) {
     const Rgb& e = illuminance[i];
     light[i] = {albedo[i][0] * e.r, albedo[i][1] * e.g, albedo[i][2] * e.b, 0};
@@ -57,10 +53,10 @@ void sweep(const WaveletRows& bounce, std::span<const Rgbx> albedo, std::vector<
 
 }  // namespace
 
-uint32_t enough_sweeps(const WaveletRows& bounce, std::span<const Rgbx> albedo, double tolerance) {
+uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, double tolerance) {
   constexpr uint32_t kMost = 1000;
-  std::vector<Rgbx> light(bounce.columns, Rgbx{1, 1, 1, 0});
-  std::vector<Rgb> scratch(bounce.columns);
+  std::vector<Rgbx> light(bounce.rows, Rgbx{1, 1, 1, 0});
+  std::vector<Rgb> scratch(bounce.rows);
   std::array<double, 3> before{};
   for (uint32_t sweeps = 0; sweeps < kMost; ++sweeps) {
     double still = 0;
@@ -74,29 +70,48 @@ uint32_t enough_sweeps(const WaveletRows& bounce, std::span<const Rgbx> albedo, 
       before[c] = left;
     }
     if (still <= tolerance) return sweeps;
-    sweep(bounce, albedo, light, scratch);
+    haar_forward(light);
+    multiply(bounce, light, scratch);
+    reflect(scratch, albedo, light);
   }
   return kMost;
+}
+
+namespace {
+
+/// @param light  transformed
+std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> light) {
+  std::vector<Rgb> illuminance(op.first.rows);
+  multiply(op.first, light, illuminance);
+  std::vector<Rgbx> out(op.first.rows);
+  reflect(illuminance, op.albedo, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitance) {
+  std::vector<Rgbx> light(exitance.begin(), exitance.end());
+  haar_forward(light);
+  return reflected_once(op, light);
 }
 
 void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
   haar_forward(exitance);
   if (op.sweeps == 0) return;
-  // The first coefficients are the transform of the coarser square of block means, times its blocks' side.
-  const std::size_t n = op.bounce.columns;
-  const float side = std::sqrt(static_cast<float>(exitance.size() / n));
-  std::vector<Rgbx> light(exitance.begin(), exitance.begin() + static_cast<std::ptrdiff_t>(n));
-  for (Rgbx& l : light)
-    for (float& v : l) v /= side;
-  haar_inverse(light);
-  std::vector<Rgbx> sum(n, Rgbx{});
+  const std::size_t n = op.bounce.rows;
+  std::vector<Rgbx> light = reflected_once(op, exitance), sum = light;
   std::vector<Rgb> scratch(n);
-  for (uint32_t i = 0; i < op.sweeps; ++i) {
-    sweep(op.bounce, op.albedo, light, scratch);
+  for (uint32_t i = 1; i < op.sweeps; ++i) {
+    haar_forward(light);
+    multiply(op.bounce, light, scratch);
+    reflect(scratch, op.albedo, light);
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[k][c] += light[k][c];
   }
+  // The transform of a square whose blocks are all even: that of the blocks, times their side.
   haar_forward(sum);
+  const float side = std::sqrt(static_cast<float>(exitance.size() / n));
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t c = 0; c < 3; ++c) exitance[k][c] += side * sum[k][c];
 }

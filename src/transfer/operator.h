@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/vec.h"
-#include "transfer/wavelet_rows.h"
+#include "transfer/cluster_rows.h"
 
 namespace sconce {
 
@@ -42,15 +42,16 @@ struct Operator {
   std::span<const OperatorPoint> lit;        ///< slots x points: where direct light is asked for
   std::span<const OperatorPoint> receivers;  ///< per row of `gather`
   std::span<const uint32_t> places;          ///< per row: page * height * width + y * width + x
-  WaveletRows gather;                        ///< F: receivers x slots
-  WaveletRows
-      bounce;  ///< K of the cloud, on a coarser square: each of its columns is that many slots in turn
-  std::span<const Rgbx> albedo;  ///< per column of `bounce`
+  ClusterRows gather;                        ///< F: receivers x slots
+  /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots, `bounce` from
+  /// nodes to nodes for light that was reflected and is even.
+  ClusterRows first, bounce;
+  std::span<const Rgbx> albedo;  ///< per node
   std::vector<std::shared_ptr<const void>> owners;
 
-  uint32_t slots() const { return gather.columns; }
-  /// Of the two matrices.
-  uint64_t bytes() const { return gather.bytes() + bounce.bytes(); }
+  uint32_t slots() const { return gather.basis.columns; }
+  /// Of the matrices.
+  uint64_t bytes() const { return gather.bytes() + first.bytes() + bounce.bytes(); }
 };
 
 /// E_i = F (M + I) b_d: multiply() after all bounces, M = rho K + rho K rho K + ... by sweeps of scalar K and
@@ -59,12 +60,17 @@ struct Operator {
 /// @return illuminance by light that was reflected at least once, lux; per receiver
 std::vector<Rgb> indirect_light(const Operator& op, std::vector<Rgbx>& exitance);
 
-/// The first half of it: the wavelet coefficients of (M + I) b_d. In place.
+/// Light of the cloud after its first reflection, per node, lm/m2.
+/// @param exitance  per slot
+std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitance);
+
+/// The first half of it: the wavelet coefficients of (M + I) b_d. In place. Needs `first`, `bounce`,
+/// `albedo`.
 void bounce_light(const Operator& op, std::span<Rgbx> exitance);
 
 /// Sweeps after which all light still to come is less than `tolerance` of what started, were it even. A
 /// property of the operator alone, so that its answer is linear.
-uint32_t enough_sweeps(const WaveletRows& bounce, std::span<const Rgbx> albedo, double tolerance = 1e-3);
+uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, double tolerance = 1e-3);
 
 /// Writes beside and renames. @throws Error
 void write_operator(const std::filesystem::path& path, const Operator& op);

@@ -29,7 +29,7 @@ struct Head {
   int32_t width, height, pages;
   float camera_frame[16], camera_yfov;
   uint32_t points_per_slot, sweeps;
-  uint32_t columns[2], rows[2];  ///< of gather and bounce
+  uint32_t slots, nodes, rows, cluster[3];  ///< of gather, first, bounce
   uint32_t sections, reserved;
 };
 constexpr std::size_t kChecked = offsetof(Head, bytes);
@@ -44,16 +44,20 @@ void for_each_section(Op& op, F&& f) {
   f(op.lit);
   f(op.receivers);
   f(op.places);
-  for (auto* rows : {&op.gather, &op.bounce}) {
+  for (auto* rows : {&op.gather.basis, &op.first.basis, &op.bounce.basis}) {
     f(rows->first);
     f(rows->indices);
     f(rows->codes);
     f(rows->scales);
     f(rows->means);
   }
+  for (auto* rows : {&op.gather, &op.first, &op.bounce}) {
+    f(rows->weights);
+    f(rows->scales);
+  }
   f(op.albedo);
 }
-constexpr uint32_t kSections = 14;
+constexpr uint32_t kSections = 25;
 
 void put_text(std::string_view text, std::span<char> field) {
   std::memcpy(field.data(), text.data(), std::min(text.size(), field.size()));
@@ -77,16 +81,24 @@ bool fits(const WaveletRows& rows) {
   return true;
 }
 
+bool fits(const ClusterRows& rows) {
+  const std::size_t filled = (std::size_t{rows.rows} + 15) / 16 * 16;
+  return rows.cluster > 0 && rows.cluster % ClusterRows::kLanes == 0 && fits(rows.basis) &&
+         rows.basis.rows == ClusterRows::kRank * rows.clusters() && rows.scales.size() == filled &&
+         rows.weights.size() == ClusterRows::kRank * filled;
+}
+
 bool fits(const Operator& op) {
   if (op.width < 1 || op.height < 1 || op.pages < 1 || op.points_per_slot < 1) return false;
   const uint64_t room =
       static_cast<uint64_t>(op.width) * static_cast<uint64_t>(op.height) * static_cast<uint64_t>(op.pages);
   for (const uint32_t place : op.places)
     if (place >= room) return false;
-  return fits(op.gather) && fits(op.bounce) && op.bounce.rows == op.bounce.columns &&
-         op.bounce.columns <= op.gather.columns && op.albedo.size() == op.bounce.columns &&
-         op.receivers.size() == op.gather.rows && op.places.size() == op.gather.rows &&
-         op.lit.size() == std::size_t{op.points_per_slot} * op.gather.columns;
+  const std::size_t slots = op.slots(), nodes = op.bounce.rows;
+  return fits(op.gather) && fits(op.first) && fits(op.bounce) && is_power_of_four(nodes) && nodes <= slots &&
+         op.first.rows == nodes && op.first.basis.columns == slots && op.bounce.basis.columns == nodes &&
+         op.albedo.size() == nodes && op.receivers.size() == op.gather.rows &&
+         op.places.size() == op.gather.rows && op.lit.size() == op.points_per_slot * slots;
 }
 
 }  // namespace
@@ -103,8 +115,9 @@ void write_operator(const std::filesystem::path& path, const Operator& op) {
   std::memcpy(head.camera_frame, &op.camera_frame[0][0], sizeof head.camera_frame);
   head.camera_yfov = op.camera_yfov;
   head.points_per_slot = op.points_per_slot, head.sweeps = op.sweeps;
-  head.columns[0] = op.gather.columns, head.columns[1] = op.bounce.columns;
-  head.rows[0] = op.gather.rows, head.rows[1] = op.bounce.rows;
+  head.slots = op.slots(), head.nodes = op.bounce.rows, head.rows = op.gather.rows;
+  head.cluster[0] = op.gather.cluster, head.cluster[1] = op.first.cluster,
+  head.cluster[2] = op.bounce.cluster;
   head.sections = kSections;
   std::string bytes(sizeof head + kSections * sizeof(Section), '\0');
   std::size_t section = 0;
@@ -148,8 +161,15 @@ Operator open_operator(const std::filesystem::path& path, bool check) {
   std::memcpy(&op.camera_frame[0][0], head.camera_frame, sizeof head.camera_frame);
   op.camera_yfov = head.camera_yfov;
   op.points_per_slot = head.points_per_slot, op.sweeps = head.sweeps;
-  op.gather.columns = head.columns[0], op.bounce.columns = head.columns[1];
-  op.gather.rows = head.rows[0], op.bounce.rows = head.rows[1];
+  std::size_t matrix = 0;
+  for (ClusterRows* rows : {&op.gather, &op.first, &op.bounce}) {
+    rows->rows = matrix == 0 ? head.rows : head.nodes;
+    rows->cluster = head.cluster[matrix];
+    if (rows->cluster == 0) throw broken;
+    rows->basis.columns = matrix == 2 ? head.nodes : head.slots;
+    rows->basis.rows = static_cast<uint32_t>(ClusterRows::kRank * rows->clusters());
+    ++matrix;
+  }
   std::size_t section = 0;
   for_each_section(op, [&](auto& array) {
     using T = typename std::remove_reference_t<decltype(array)>::element_type;

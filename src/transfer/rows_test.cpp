@@ -36,7 +36,7 @@ std::vector<Rgbx> light(uint32_t seed) {
 }
 
 WaveletRowsBuilder::Result compress(std::size_t coefficients, Weighting weighting) {
-  WaveletRowsBuilder builder(kRows, kColumns, coefficients, weighting);
+  WaveletRowsBuilder builder(kRows, kColumns, coefficients, squared_weights(kColumns, weighting));
   parallel_for(builder.blocks(), 1, [&](std::size_t block) {
     WaveletRowsBuilder::Scratch scratch(builder);
     std::vector<std::vector<SparseEntry>> rows;

@@ -19,11 +19,11 @@ struct Owned {
 }  // namespace
 
 WaveletRowsBuilder::WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients,
-                                       Weighting weighting)
+                                       std::vector<float> squares)
     : rows_(rows),
       columns_(columns),
       coefficients_(coefficients),
-      weighting_(weighting),
+      squares_(std::move(squares)),
       blocks_((rows + kBlock - 1) / kBlock) {}
 
 void WaveletRowsBuilder::set_block(std::size_t block, std::span<std::vector<SparseEntry>> rows,
@@ -31,9 +31,10 @@ void WaveletRowsBuilder::set_block(std::size_t block, std::span<std::vector<Spar
   Block& out = blocks_[block];
   const std::span transformed(scratch.transformed.data(), rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) haar_forward(rows[r], columns_, transformed[r]);
+  for (const std::vector<SparseEntry>& row : transformed)
+    for (const SparseEntry& e : row) scratch.chooser.add(e.index, e.value * e.value);
   // The mean is one of the coefficients asked for.
-  const std::span<const uint32_t> chosen =
-      scratch.chooser.choose(transformed, coefficients_ > 0 ? coefficients_ - 1 : 0);
+  const std::span<const uint32_t> chosen = scratch.chooser.choose(coefficients_ > 0 ? coefficients_ - 1 : 0);
   out.indices.assign(chosen.begin(), chosen.end());
   for (std::size_t k = 0; k < chosen.size(); ++k) scratch.place[chosen[k]] = static_cast<uint16_t>(k + 1);
   out.codes.assign(kBlock * chosen.size(), 0);
@@ -49,6 +50,19 @@ void WaveletRowsBuilder::set_block(std::size_t block, std::span<std::vector<Spar
         out.codes[(at - 1) * kBlock + r] = quantise(e.value, largest);
   }
   for (const uint32_t index : chosen) scratch.place[index] = 0;
+}
+
+void WaveletRowsBuilder::set_block(std::size_t block, std::span<const uint32_t> chosen,
+                                   std::span<const Sixteen> values) {
+  Block& out = blocks_[block];
+  out.indices.assign(chosen.begin(), chosen.end());
+  out.codes.resize(kBlock * chosen.size());
+  out.means = values[0];
+  for (const uint32_t k : chosen)
+    for (std::size_t r = 0; r < kBlock; ++r) out.scales[r] = std::max(out.scales[r], std::abs(values[k][r]));
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    for (std::size_t r = 0; r < kBlock; ++r)
+      out.codes[kBlock * i + r] = quantise(values[chosen[i]][r], out.scales[r]);
 }
 
 WaveletRowsBuilder::Result WaveletRowsBuilder::finish() {

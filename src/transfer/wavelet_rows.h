@@ -50,13 +50,13 @@ double cull(std::span<const float> norms, float threshold, std::span<Rgbx> light
 /// Compresses rows block by block, on any number of threads.
 class WaveletRowsBuilder {
  public:
-  WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients, Weighting weighting);
+  WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients, std::vector<float> squares);
 
   /// One for each thread at a time.
   class Scratch {
    public:
     explicit Scratch(const WaveletRowsBuilder& builder)
-        : chooser(builder.columns_, builder.weighting_), place(builder.columns_, 0), transformed(16) {}
+        : chooser(builder.squares_), place(builder.columns_, 0), transformed(WaveletRows::kBlock) {}
 
    private:
     friend WaveletRowsBuilder;
@@ -66,8 +66,13 @@ class WaveletRowsBuilder {
   };
 
   std::size_t blocks() const { return blocks_.size(); }
+  /// Transforms, chooses and quantises.
   /// @param rows  up to kBlock sparse rows, ascending by column; used as scratch
   void set_block(std::size_t block, std::span<std::vector<SparseEntry>> rows, Scratch& scratch);
+  /// Quantises coefficients that were chosen by the caller.
+  /// @param chosen  ascending, without 0
+  /// @param values  of all coefficients, kBlock rows at a time
+  void set_block(std::size_t block, std::span<const uint32_t> chosen, std::span<const Sixteen> values);
   /// All blocks as one. The builder is then empty; the rows live as long as the result's owner.
   struct Result {
     WaveletRows rows;
@@ -83,7 +88,7 @@ class WaveletRowsBuilder {
   };
   uint32_t rows_, columns_;
   std::size_t coefficients_;
-  Weighting weighting_;
+  std::vector<float> squares_;
   std::vector<Block> blocks_;
 };
 
