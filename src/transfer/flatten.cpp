@@ -12,12 +12,13 @@ namespace sconce {
 namespace {
 
 constexpr int kMostRounds = 8;
+constexpr float kPositions = 20, kNormals = 16;
 
 using Place = std::array<float, 6>;
 using Sums = std::array<double, 6>;
 
 Place place_of(const SurfacePoint& p, float diagonal) {
-  const Vec3 a = 20.0f * p.position, b = 16 * diagonal * p.shading_normal;
+  const Vec3 a = kPositions * p.position, b = kNormals * diagonal * p.shading_normal;
   return {a.x, a.y, a.z, b.x, b.y, b.z};
 }
 

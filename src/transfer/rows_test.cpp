@@ -172,7 +172,7 @@ double spread(std::span<const SurfacePoint> points, std::span<const uint32_t> or
   for (std::size_t first = 0; first < order.size(); first += block)
     for (std::size_t k = 1; k < block; ++k) {
       const SurfacePoint &a = points[order[first]], &b = points[order[first + k]];
-      const Vec3 p = 20.0f * (a.position - b.position), n = 1.7f * (a.shading_normal - b.shading_normal);
+      const Vec3 p = 20.0f * (a.position - b.position), n = 16 * 1.7f * (a.shading_normal - b.shading_normal);
       sum += static_cast<double>(glm::dot(p, p) + glm::dot(n, n)) / static_cast<double>(block - 1);
     }
   return sum;
