@@ -128,7 +128,7 @@ TEST(Layers, LibrariesStayInTheirPlace) {
                         {R"(stb_image)", "src/image/"},
                         {R"(^tbb/)", "src/core/", "bench/replay"},
                         {R"(^(epoxy|EGL|GL)/)", "src/gpu/", "examples/"},
-                        {R"(^hwy/)", "src/mix/"},
+                        {R"(^hwy/)", "src/mix/", "src/transfer/"},
                         {R"(^CLI/)", "apps/sconce/options.cpp"}};
   std::map<std::string, int> found;
   for (const fs::path& file : cpp_files()) {

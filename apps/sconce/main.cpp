@@ -25,6 +25,9 @@ constexpr Verb kVerbs[] = {
     {"render", "a package and group settings to a picture", run_render},
     {"shader", "the shader that mixes a package's layers, for another renderer", run_shader},
     {"luminaire", "measured lamps: info, check, convert", run_luminaire},
+    {"transfer", "a package to an operator that carries moved lamps' light through all bounces",
+     run_transfer},
+    {"relight", "a package, its operator and moved lamps to a picture", run_relight},
     {"diff", "how far two images differ", run_diff},
 };
 

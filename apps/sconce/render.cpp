@@ -10,6 +10,7 @@
 #include "image/io.h"
 #include "mix_options.h"
 #include "picture_options.h"
+#include "picture_output.h"
 #include "stage.h"
 
 namespace fs = std::filesystem;
@@ -19,13 +20,6 @@ namespace sconce::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// kitchen.sconce -> kitchen.png beside it.
-std::string default_output(const std::string& package) {
-  fs::path path(package);
-  if (!path.has_filename()) path = path.parent_path();
-  return path.replace_extension(".png").string();
-}
 
 struct Rendered {
   std::unique_ptr<Stage> stage;  ///< with the picture drawn
@@ -48,18 +42,6 @@ Rendered render(const Package& package, const PictureOptions& picture, const Mix
   if (metered) out.metering = meter(package, out.stage->scene(), out.mix, pages);
   out.stage->draw(out.camera, out.mix, pages, out.params, progress);
   return out;
-}
-
-void write_linear(const std::string& output, Image picture, const Exposure& exposure) {
-  for (float& v : picture.data) v *= exposure.scale;
-  picture.number["whiteLuminance"] = exposure.white_luminance();
-  write_exr(output, picture, PixelType::full);
-}
-
-void write_toned(const std::string& output, const Image8& toned) {
-  if (output != "-") return write_png(output, toned);
-  const std::vector<unsigned char> bytes = encode_png(toned);
-  write_stdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -87,7 +69,7 @@ int run_render(int argc, const char* const* argv) {
   const Preset preset = settings.preset();
   picture.apply(preset);
   picture.check();
-  if (output.empty()) output = default_output(input);
+  if (output.empty()) output = default_output(input, ".png");
   check_output(output, {".png", ".exr"});
   if (!coverage.empty()) check_output(coverage, {".exr"});
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");

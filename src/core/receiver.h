@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/rgb.h"
@@ -40,6 +41,12 @@ struct Footprint {
 
   /// Uniform by area; u in [0,1)^2, the first coordinate also picks the piece.
   SurfacePoint sample(Vec2 u) const;
+};
+
+/// Receivers by number, whatever they are.
+struct ReceiverSource {
+  std::size_t count = 0;
+  std::function<Footprint(std::size_t)> footprint;  ///< thread-safe
 };
 
 }  // namespace sconce

@@ -53,7 +53,7 @@ std::vector<uint32_t> pick_seeds(const World& world, const SurfaceCells& cells,
 }  // namespace
 
 GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
-                         const TexelReceivers* receivers, const CloudParams& params, const Progress& progress,
+                         const ReceiverSource& receivers, const CloudParams& params, const Progress& progress,
                          const Ranks& ranks)
     : world_(&world) {
   progress.at("gather cloud", 0, 3);

@@ -4,9 +4,10 @@
 // look-ups are ours.
 #pragma once
 
+#include "core/progress.h"
+#include "core/receiver.h"
 #include "gather/owners.h"
 #include "light/lamp.h"
-#include "receive/atlas.h"
 
 namespace sconce {
 
@@ -17,10 +18,10 @@ struct CloudParams {
 
 class GatherCloud {
  public:
-  /// Spreads samples by where gather rays from `receivers` (may be null) and light from the lamps land.
+  /// Spreads samples by where gather rays from `receivers` (may be none) and light from the lamps land.
   /// @param ranks  share the work; each gets all of it
   GatherCloud(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
-              const TexelReceivers* receivers, const CloudParams& params, const Progress& progress = {},
+              const ReceiverSource& receivers, const CloudParams& params, const Progress& progress = {},
               const Ranks& ranks = {});
 
   std::size_t size() const { return areas_.size(); }
@@ -48,6 +49,10 @@ class GatherCloud {
   const Rgb& albedo(std::size_t i) const { return albedos_[i]; }
   /// A sample as a receiver: its cells.
   Footprint footprint(std::size_t i) const;
+  /// The cells of its footprint.
+  std::span<const uint32_t> owned(std::size_t i) const {
+    return {owned_.data() + first_[i], owned_.data() + first_[i + 1]};
+  }
   /// A point of it that the sample speaks for, where light may be gathered in its name.
   SurfacePoint point(std::size_t i, const Footprint& footprint, Vec2 u) const {
     const SurfacePoint p = footprint.sample(u);

@@ -16,7 +16,7 @@ struct Rig : LitScene {
   GatherCloud cloud;
 
   Rig(Scene s, std::size_t samples)
-      : LitScene(std::move(s), Grouping::one), cloud(scene, world, tracer, lamps, nullptr, {samples, 1}) {}
+      : LitScene(std::move(s), Grouping::one), cloud(scene, world, tracer, lamps, {}, {samples, 1}) {}
 
   SparseRows rows(int rays) const { return gather(world, tracer, cloud, rays, 1, {}).rows; }
   double area() const {

@@ -5,13 +5,11 @@
 #include <atomic>
 
 #include "core/parallel.h"
-#include "core/sobol.h"
+#include "gather/row_rays.h"
 
 namespace sconce {
 
 namespace {
-
-constexpr uint32_t kMostSteps = 8;
 
 /// Rows of one block of samples.
 class RowGatherer {
@@ -32,8 +30,14 @@ class RowGatherer {
     const uint32_t stream = mix32(mix32(seed, 0x726f7773u), footprint.id);
     std::fill(once_.begin(), once_.end(), 0.0);
     met_.clear();
-    for (uint32_t r = 0; r < rays; ++r)
-      follow(cloud_.point(i, footprint, sobol_pair(r, 0, stream)), r, stream);
+    for (uint32_t r = 0; r < rays; ++r) {
+      const auto sample = follow_row_ray(
+          world_, tracer_, cloud_, cloud_.point(i, footprint, sobol_pair(r, 0, stream)), r, stream,
+          [&](const SurfacePoint& at, uint32_t cell, uint32_t step, const Rgb& throughput) {
+            if (!once_.empty()) add_direct(at, cell, mix32(stream, r) ^ step, throughput);
+          });
+      if (sample) met_.push_back(*sample);
+    }
     for (std::size_t c = 0; c < once.size(); ++c) once[c] = static_cast<float>(once_[c] / rays);
     std::sort(met_.begin(), met_.end());
     for (std::size_t k = 0; k < met_.size();) {
@@ -47,30 +51,6 @@ class RowGatherer {
   }
 
  private:
-  /// One ray, to a sample. Where none speaks for its end it goes on, as a path: without colour for K.
-  void follow(SurfacePoint at, uint32_t r, uint32_t stream) {
-    Rgb throughput{1.0f};
-    for (uint32_t step = 0; step < kMostSteps; ++step) {
-      const Vec3 direction =
-          Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(r, 1 + 2 * step, stream)));
-      if (!(glm::dot(direction, at.geometric_normal) > 0)) return;
-      const Hit hit =
-          tracer_.closest({offset_origin(at.position, at.geometric_normal, direction), direction});
-      if (!hit || !cloud_.reflects(hit)) return;
-      const uint32_t cell = cloud_.cell(hit);
-      at = surface_point(world_, hit);
-      const Rgb& albedo = cloud_.cell_albedo(cell);
-      if (!once_.empty()) add_direct(at, cell, mix32(stream, r) ^ step, throughput * albedo);
-      if (const auto sample = cloud_.speaker(at, cell)) {
-        met_.push_back(*sample);
-        return;
-      }
-      const float survival = (albedo.r + albedo.g + albedo.b) / 3;
-      if (!(sobol_pair(r, 2 + 2 * step, stream).x < survival)) return;
-      throughput *= albedo * (1 / survival);
-    }
-  }
-
   void add_direct(const SurfacePoint& at, uint32_t cell, uint32_t stream, const Rgb& factor) {
     const std::size_t width = once_.size();
     if (cloud_.owner(cell).trust == Trust::whole) {

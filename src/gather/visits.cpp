@@ -74,23 +74,24 @@ class Visits {
 }  // namespace
 
 std::vector<double> visit_shares(const World& world, const Tracer& tracer, const Lamps& lamps,
-                                 const TexelReceivers* receivers, const SurfaceParts& parts, std::size_t rays,
+                                 const ReceiverSource& receivers, const SurfaceParts& parts, std::size_t rays,
                                  uint32_t seed, const Ranks& ranks) {
   constexpr std::size_t kGrain = 1024;
   std::vector<double> shares(parts.size(), 0.0);
   double rest = 1;
-  if (receivers != nullptr && receivers->size() > 0) {
+  if (receivers.count > 0) {
     Visits visits(world, tracer, parts);
     parallel_for(rays, kGrain, [&](std::size_t i) {
       if (!ranks.mine(i / kGrain)) return;
       Sampler sampler(seed, 0x76697369u, static_cast<uint32_t>(i));
       const auto pick = static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(rays) *
-                                                 static_cast<double>(receivers->size()));
-      const Ray ray = Visits::leave(receivers->footprint(pick).sample(sampler.next()), sampler);
+                                                 static_cast<double>(receivers.count));
+      const Ray ray = Visits::leave(receivers.footprint(pick).sample(sampler.next()), sampler);
       if (ray.direction != Vec3(0)) visits.follow(ray, sampler);
     });
     visits.join(ranks);
-    if (visits.add(kBySight, shares)) rest -= kBySight;
+    const double share = lamps.size() > 0 ? kBySight : kBySight + kByLight;
+    if (visits.add(share, shares)) rest -= share;
   }
   if (lamps.size() > 0) {
     Visits visits(world, tracer, parts);

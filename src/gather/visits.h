@@ -7,18 +7,17 @@
 #include "core/ranks.h"
 #include "gather/cells.h"
 #include "light/lamp.h"
-#include "receive/atlas.h"
 
 namespace sconce {
 
 /// Share of each part (gather/cells.h) in the samples: half by the hits of cosine-distributed rays from
-/// random receivers (may be null), two fifths by the hits of light from the lamps, each lamp alike, whatever
+/// random receivers (may be none), two fifths by the hits of light from the lamps, each lamp alike, whatever
 /// its strength; one hit in five is one after a reflection. The rest, and all of it where there are neither,
 /// goes by area, so that nothing is left out.
 /// @param ranks  share the rays
 /// @return per part, sum 1
 std::vector<double> visit_shares(const World& world, const Tracer& tracer, const Lamps& lamps,
-                                 const TexelReceivers* receivers, const SurfaceParts& parts, std::size_t rays,
+                                 const ReceiverSource& receivers, const SurfaceParts& parts, std::size_t rays,
                                  uint32_t seed, const Ranks& ranks = {});
 
 }  // namespace sconce

@@ -141,6 +141,18 @@ Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, s
   return metering;
 }
 
+Metering meter_picture(const Image& picture) {
+  Sums sums;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float l = std::max(0.0f, luminance(picture.rgb_at(x, y)));
+      sums.log_sum += std::log(static_cast<double>(l) + kDelta);
+      sums.weight += 1;
+      sums.histogram.add(l, 1);
+    }
+  return {std::exp(sums.log_sum / std::max(sums.weight, 1.0)), sums.histogram.percentile(kPercentile)};
+}
+
 Metering meter(const Package& package, const MixSpec& mix, std::span<const Image> mixed) {
   return meter(package, package.scene(), mix, mixed);
 }

@@ -24,5 +24,7 @@ struct Metering {
 Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, std::span<const Image> mixed);
 /// The same; reads the scene itself.
 Metering meter(const Package& package, const MixSpec& mix, std::span<const Image> mixed);
+/// Of a picture in cd/m2 that no lightmap stands behind.
+Metering meter_picture(const Image& picture);
 
 }  // namespace sconce

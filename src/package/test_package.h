@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests only: a small package with known content, and a folder that goes away again.
+// For tests only: a small package with known content.
 #pragma once
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <string>
 
+#include "core/test_folder.h"
 #include "package/package.h"
 
 namespace sconce {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sconce-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ec;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ec);
-    std::filesystem::remove_all(path_, ec);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A quad of 2 x 2 m in z = `z`, facing +z (or -z when `flipped`), with texture coordinates in set 0 and
 /// lightmap coordinates in set 1, both from (0, 0) top left to (1, 1) bottom right as seen from +z.

@@ -53,7 +53,8 @@ Rgb illuminance(const LightmapSide& side, Vec2 barycentric, const std::vector<Im
 
 }  // namespace
 
-View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const {
+View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+                      const std::function<Rgb(const SurfacePoint&)>& added) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   if (!hit) {
@@ -66,10 +67,11 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
     return seen;
   }
   const Shade surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-  const Rgb light =
-      illuminance((hit.back ? shown_.back : shown_.front)[hit.triangle], hit.barycentric, pages);
+  Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
+  const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
+  if (lit && added) light += added(surface_point(world(), hit));
   seen.radiance = surface.receiver_albedo() * light * kInvPi;
-  if (!hit.back || scene()[world().materials[hit.triangle]].double_sided) {
+  if (lit) {
     seen.emitter = !surface.emission.is_black();
     seen.radiance += weight_of(mix, scene()[world().instances[hit.triangle]].group) * surface.emission;
   }
@@ -77,7 +79,8 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
 }
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-                   const PictureParams& params, const Progress& progress, Image* coverage) const {
+                   const PictureParams& params, const Progress& progress, Image* coverage,
+                   const AddedLight& added) const {
   params.check();
   check_pages(package_->manifest(), mix, pages);
   const Lens lens(camera, params);
@@ -92,9 +95,11 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     Rgb sum;
     int emitters = 0;
     for (int s = 0; s < params.samples; ++s) {
-      const Vec2 inside =
-          params.samples == 1 ? Vec2(0.5f) : Sampler(params.seed, id, static_cast<uint32_t>(s)).next();
-      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages);
+      const auto sample = static_cast<uint32_t>(s);
+      const Vec2 inside = params.samples == 1 ? Vec2(0.5f) : Sampler(params.seed, id, sample).next();
+      std::function<Rgb(const SurfacePoint&)> here;
+      if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, sample); };
+      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages, here);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

@@ -2,6 +2,8 @@
 // The CPU picture: camera rays, mixed lightmap x base colour, visible emitters following their faders.
 #pragma once
 
+#include <functional>
+
 #include "core/progress.h"
 #include "mix/mix.h"
 #include "package/shown_scene.h"
@@ -9,6 +11,10 @@
 #include "trace/tracer.h"
 
 namespace sconce {
+
+/// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux.
+/// Thread-safe.
+using AddedLight = std::function<Rgb(const SurfacePoint& at, int x, int y, uint32_t sample)>;
 
 /// A package ready to be looked at: geometry, rays, lightmap coordinates. Thread-safe once built.
 class View {
@@ -25,12 +31,19 @@ class View {
   /// @param pages     mix_pages() of the same mix
   /// @param coverage  when given: per pixel, the share of samples that see an emitter (or the sky), one
   /// channel
+  /// @param added     light beside the lightmap's; may be empty
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-               const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr) const;
+               const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
+               const AddedLight& added = {}) const;
 
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
   const World& world() const { return shown_.world; }
+  const Tracer& tracer() const { return tracer_; }
+  /// Where that side of a World triangle lies in the lightmap.
+  const LightmapSide& side(std::size_t triangle, bool back) const {
+    return (back ? shown_.back : shown_.front)[triangle];
+  }
   /// The named camera; the first one for an empty name; one at eye height (and a warning) where the scene has
   /// none.
   /// @throws UsageError naming the cameras
@@ -41,7 +54,8 @@ class View {
     Rgb radiance;  ///< cd/m2
     bool emitter = false;
   };
-  Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages) const;
+  Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+            const std::function<Rgb(const SurfacePoint&)>& added) const;
   Camera eye_height_camera() const;
 
   const Package* package_;

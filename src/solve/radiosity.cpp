@@ -22,6 +22,11 @@ std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
   return std::clamp<std::size_t>(context.receivers->size() / 4, 4096, 65536);
 }
 
+ReceiverSource source(const TexelReceivers* receivers) {
+  if (receivers == nullptr) return {};
+  return {receivers->size(), [receivers](std::size_t i) { return receivers->footprint(i); }};
+}
+
 /// What receivers' rays read.
 struct RadiosityCache {
   const GatherCloud* cloud = nullptr;
@@ -55,7 +60,7 @@ class RadiositySolver final : public Solver {
     cloud.seed = params.seed;
     cloud.samples = cloud_size(context, params);
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
-                                           context.receivers, cloud, progress, context.ranks);
+                                           source(context.receivers), cloud, progress, context.ranks);
     direct_ = direct_light(progress);
     const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 32, 256));
     DirectLight direct;

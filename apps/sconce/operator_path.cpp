@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operator_path.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "relight/precompute.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+fs::path operator_path(const fs::path& package, const std::string& camera) {
+  return package / "operators" /
+         (camera.empty() ? "lightmap.bin" : "camera-" + safe_file_name(camera) + ".bin");
+}
+
+Operator find_operator(const Package& package, const std::string& camera) {
+  const fs::path path = operator_path(package.path(), camera);
+  std::error_code ec;
+  if (!fs::exists(path, ec)) {
+    std::vector<std::string> there;
+    for (const auto& entry : fs::directory_iterator(package.path() / "operators", ec))
+      if (entry.path().extension() == ".bin") there.push_back(entry.path().stem().string());
+    std::sort(there.begin(), there.end());
+    throw Error(path.string(), "no such operator: 'sconce transfer' makes it",
+                there.empty() ? "" : join(there, ", "));
+  }
+  Operator op = open_operator(path);
+  if (op.scene != operator_scene(package))
+    throw Error(path.string(), "belongs to another state of this package: 'sconce transfer' makes it anew");
+  return op;
+}
+
+}  // namespace sconce::app

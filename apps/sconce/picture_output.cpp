@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_output.h"
+
+#include <filesystem>
+
+#include "image/io.h"
+#include "mix_options.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+std::string default_output(const std::string& package, const std::string& ending) {
+  fs::path path(package);
+  if (!path.has_filename()) path = path.parent_path();
+  return path.replace_extension(ending).string();
+}
+
+void write_linear(const std::string& output, Image picture, const Exposure& exposure) {
+  for (float& v : picture.data) v *= exposure.scale;
+  picture.number["whiteLuminance"] = exposure.white_luminance();
+  write_exr(output, picture, PixelType::full);
+}
+
+void write_toned(const std::string& output, const Image8& toned) {
+  if (output != "-") return write_png(output, toned);
+  const std::vector<unsigned char> bytes = encode_png(toned);
+  write_stdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace sconce::app

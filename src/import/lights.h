@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lamps that are told on a command line, in the words of a side file's [[light]].
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "core/progress.h"
+#include "scene/scene.h"
+
+namespace sconce {
+
+/// `spot,position=1,2,0.5,target=0,0,0,lumens=800,kelvin=2700`: the type, then keys of [[light]]; a part
+/// without
+/// `=` goes on with the value before it. @throws UsageError or Error naming `where` and the key
+Light parse_light(std::string_view text, const std::string& where);
+
+/// The [[light]] tables of a TOML file that has nothing else. @throws Error with file:line
+std::vector<Light> read_lights(const std::filesystem::path& path, const Progress& progress = {});
+
+}  // namespace sconce

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes a direct-to-indirect operator: cloud, rows of the final gather F and of the cloud's own kernel K by
+// cosine-distributed rays that end on the cloud (methods.md 2.4), both fitted to
+// the light of lamps at many places.
+#pragma once
+
+#include "relight/receivers.h"
+
+namespace sconce {
+
+struct TransferParams {
+  std::size_t gather = 65536;     ///< slots of the cloud's square: a power of four, 256 to 65,536
+  int rays = 512;                 ///< per receiver
+  int cluster = 512;              ///< receivers that share a basis, a multiple of 16
+  int coefficients = 1024;        ///< of a basis
+  int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
+  int points = 4;                 ///< per slot, where direct light is asked for
+  int lights = 256;               ///< that rows are fitted to
+  uint32_t seed = 1;
+};
+
+/// Rows stream through compression block by block; F is never held whole. The same bits at any number of
+/// threads.
+/// @param scene  hash that ties the file to its package: operator_scene()
+/// @throws UsageError naming the option; Cancelled
+Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
+                       const std::string& scene, const Progress& progress = {});
+
+/// Identity of what an operator depends on in a package: geometry, materials, texels.
+std::string operator_scene(const Package& package);
+
+}  // namespace sconce

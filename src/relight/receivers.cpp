@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relight/receivers.h"
+
+#include <cstring>
+#include <map>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "receive/layout.h"
+
+namespace sconce {
+
+namespace {
+
+/// A side by where it lies in the lightmap: sides do not overlap there.
+using SideKey = std::pair<int, std::array<Vec2, 3>>;
+struct Before {
+  bool operator()(const SideKey& a, const SideKey& b) const {
+    return a.first != b.first ? a.first < b.first : std::memcmp(&a.second, &b.second, sizeof a.second) < 0;
+  }
+};
+
+}  // namespace
+
+// layout.bin counts triangles as the source did; the package has them sorted by page. A triangle's place in
+// the lightmap tells which it is. Sides without a place need none.
+Atlas package_atlas(const Package& package, const View& view) {
+  const Manifest& m = package.manifest();
+  const std::string where = (package.path() / "layout.bin").string();
+  const std::size_t n = view.world().size();
+  const Atlas source = unpack_layout(package.layout(), n, where);
+  std::map<SideKey, std::pair<uint32_t, bool>, Before> known;
+  const Vec2 page(static_cast<float>(source.width), static_cast<float>(source.height));
+  for (uint32_t t = 0; t < n; ++t)
+    for (const bool back : {false, true}) {
+      const TexelTriangle& side = (back ? source.back : source.front)[t];
+      if (side.page < 0) continue;
+      SideKey key{side.page, side.uv};
+      for (Vec2& uv : key.second) uv = glm::clamp(uv / page, Vec2(0), Vec2(1));
+      known.emplace(key, std::pair(t, back));
+    }
+  Atlas atlas = source;
+  for (uint32_t t = 0; t < n; ++t) {
+    for (const bool back : {false, true}) {
+      TexelTriangle& side = (back ? atlas.back : atlas.front)[t];
+      side = {};
+      const LightmapSide& seen = view.side(t, back);
+      if (seen.page < 0) continue;
+      const auto it = known.find({seen.page, seen.uv});
+      if (it == known.end() || it->second.second != back)
+        throw Error(where, "is not the layout of this scene");
+      side = (back ? source.back : source.front)[it->second.first];
+      atlas.reached_back[t] = source.reached_back[it->second.first];
+    }
+  }
+  if (atlas.width != m.width || atlas.height != m.height || atlas.pages != m.pages)
+    throw Error(where, "is not the layout of this scene");
+  return atlas;
+}
+
+RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress) {
+  struct State {
+    Atlas atlas;
+    std::unique_ptr<TexelReceivers> texels;
+  };
+  const auto state = std::make_shared<State>();
+  state->atlas = package_atlas(package, view);
+  state->texels = std::make_unique<TexelReceivers>(view.world(), view.tracer(), state->atlas, progress);
+  RelightReceivers out;
+  out.width = state->atlas.width, out.height = state->atlas.height, out.pages = state->atlas.pages;
+  for (std::size_t i = 0; i < state->texels->size(); ++i) out.places.push_back(state->texels->texel(i));
+  out.source = {state->texels->size(), [state](std::size_t i) { return state->texels->footprint(i); }};
+  out.albedo = [state, &view](std::size_t i) { return state->texels->albedo(view.scene(), i); };
+  return out;
+}
+
+RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height) {
+  PictureParams params;
+  params.width = width, params.height = height;
+  const Lens lens(camera, params);
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  std::vector<Hit> hits(pixels);
+  parallel_for(pixels, 1024, [&](std::size_t i) {
+    const auto x = static_cast<float>(i % static_cast<std::size_t>(width)),
+               y = static_cast<float>(i / static_cast<std::size_t>(width));
+    hits[i] = view.tracer().closest({lens.eye(), lens.direction({x + 0.5f, y + 0.5f})});
+  });
+  const auto kept = std::make_shared<std::vector<Hit>>();
+  RelightReceivers out;
+  out.kind = OperatorReceivers::pixels;
+  out.width = width, out.height = height, out.pages = 1;
+  out.camera = camera;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const Hit& hit = hits[i];
+    if (!hit || (hit.back && !view.scene()[view.world().materials[hit.triangle]].double_sided)) continue;
+    out.places.push_back(static_cast<uint32_t>(i));
+    kept->push_back(hit);
+  }
+  out.source.count = kept->size();
+  out.source.footprint = [kept, &view, places = out.places](std::size_t i) {
+    return Footprint::point(places[i], ReceiverKind::pixel, surface_point(view.world(), (*kept)[i]));
+  };
+  out.albedo = [kept, &view](std::size_t i) {
+    return shade(view.scene(), view.world(), (*kept)[i].triangle, (*kept)[i].barycentric).receiver_albedo();
+  };
+  return out;
+}
+
+}  // namespace sconce

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who receives indirect light: the texels of a package's lightmap, so that the camera is free, or the pixels
+// of a fixed camera (the chapter's deep frame buffer).
+#pragma once
+
+#include "core/progress.h"
+#include "picture/render.h"
+#include "receive/atlas.h"
+#include "transfer/operator.h"
+
+namespace sconce {
+
+/// Receivers and where their answers go.
+struct RelightReceivers {
+  OperatorReceivers kind = OperatorReceivers::texels;
+  int width = 0, height = 0, pages = 0;  ///< of the lightmap, or of the picture
+  Camera camera;                         ///< of pixels
+  std::vector<uint32_t> places;          ///< Operator::places
+  ReceiverSource source;
+  std::function<Rgb(std::size_t)> albedo;  ///< diffuse; thread-safe
+};
+
+/// The package's atlas on the triangles of its View. @throws Error when the package has no layout, or another
+/// scene's
+Atlas package_atlas(const Package& package, const View& view);
+
+/// The texels that were baked. Package and view must outlive it.
+RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress = {});
+
+/// What the middles of pixels see; pixels that see nothing or a black back are none. The view must outlive
+/// it.
+RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height);
+
+}  // namespace sconce

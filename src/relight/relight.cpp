@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relight/relight.h"
+
+#include <chrono>
+#include <limits>
+
+#include "core/parallel.h"
+#include "core/sobol.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr uint32_t kNone = 0xffffffffu, kSeenStream = 0x7365656eu, kMeterStream = 0x6d657465u;
+
+SurfacePoint point_of(const OperatorPoint& p) {
+  return {Vec3(p.position[0], p.position[1], p.position[2]), unpack_normal(p.shading),
+          unpack_normal(p.geometric)};
+}
+
+}  // namespace
+
+Relighter::Relighter(const Package& package, const View& view, const Operator& op, const MovedLamps& lamps)
+    : package_(package), view_(view), op_(op), lamps_(lamps) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  std::vector<Rgbx> light = light_cloud(op, lamps);
+  const auto lit = Clock::now();
+  indirect_ = indirect_light(op, light);
+  // What truncated rows leave below zero is darkness.
+  for (Rgb& e : indirect_) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+  seconds_.direct = std::chrono::duration<double>(lit - start).count();
+  seconds_.indirect = std::chrono::duration<double>(Clock::now() - lit).count();
+  if (op.kind == OperatorReceivers::pixels) {
+    receiver_of_.assign(static_cast<std::size_t>(op.width) * static_cast<std::size_t>(op.height), kNone);
+    for (uint32_t i = 0; i < op.places.size(); ++i) receiver_of_[op.places[i]] = i;
+  }
+}
+
+void Relighter::add_to(std::vector<Image>& pages) const {
+  const Atlas atlas = package_atlas(package_, view_);
+  const std::size_t page_size = static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height);
+  for (int page = 0; page < op_.pages; ++page) {
+    Image own = Image::rgb(op_.width, op_.height);
+    std::vector<uint8_t> valid(page_size, 0);
+    for (std::size_t i = 0; i < op_.places.size(); ++i) {
+      if (op_.places[i] / page_size != static_cast<std::size_t>(page)) continue;
+      const std::size_t at = op_.places[i] % page_size;
+      valid[at] = 1;
+      own.set_rgb(static_cast<int>(at) % op_.width, static_cast<int>(at) / op_.width, indirect_[i]);
+    }
+    fill_gaps(atlas, page, valid, own);
+    Image& sum = pages[static_cast<std::size_t>(page)];
+    for (std::size_t k = 0; k < own.data.size(); ++k) sum.data[k] += own.data[k];
+  }
+}
+
+void Relighter::add_direct_to(std::vector<Image>& pages) const {
+  const std::size_t page_size = static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height);
+  parallel_for(op_.places.size(), 256, [&](std::size_t i) {
+    const Rgb e = lamps_.illuminance(point_of(op_.receivers[i]), mix32(kMeterStream, op_.places[i]), 0);
+    float* texel = &pages[op_.places[i] / page_size].data[3 * (op_.places[i] % page_size)];
+    texel[0] += e.r, texel[1] += e.g, texel[2] += e.b;
+  });
+}
+
+Rgb Relighter::nearest_pixel(const SurfacePoint& at, int x, int y) const {
+  const float diagonal = view_.world().bounds.diagonal();
+  float least = std::numeric_limits<float>::infinity();
+  uint32_t nearest = kNone;
+  for (int v = std::max(0, y - 1); v <= std::min(op_.height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(op_.width - 1, x + 1); ++u) {
+      const uint32_t i = receiver_of_[static_cast<std::size_t>(v) * static_cast<std::size_t>(op_.width) +
+                                      static_cast<std::size_t>(u)];
+      if (i == kNone) continue;
+      const SurfacePoint p = point_of(op_.receivers[i]);
+      const Vec3 d = 20.0f * (p.position - at.position),
+                 n = diagonal * (p.shading_normal - at.shading_normal);
+      const float distance = glm::dot(d, d) + glm::dot(n, n);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = i;
+    }
+  return nearest == kNone ? Rgb() : indirect_[nearest];
+}
+
+AddedLight Relighter::added() const {
+  return [this](const SurfacePoint& at, int x, int y, uint32_t sample) {
+    const auto pixel = mix32(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+    Rgb light = lamps_.illuminance(at, mix32(kSeenStream, pixel), sample);
+    if (op_.kind == OperatorReceivers::pixels) light += nearest_pixel(at, x, y);
+    return light;
+  };
+}
+
+}  // namespace sconce

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What moved lamps add to a picture: direct light exactly, where it is seen, and indirect light by transfer.
+#pragma once
+
+#include "relight/moved_lamps.h"
+#include "relight/receivers.h"
+
+namespace sconce {
+
+class Relighter {
+ public:
+  /// Lights the cloud and sends its light to all receivers. All must outlive it.
+  Relighter(const Package& package, const View& view, const Operator& op, const MovedLamps& lamps);
+
+  /// E_i per receiver, lux.
+  const std::vector<Rgb>& indirect() const { return indirect_; }
+  /// Of texels: adds the indirect light to the pages of a lightmap, gaps filled.
+  void add_to(std::vector<Image>& pages) const;
+  /// Of texels: direct light at their middles, for metering alone. Adds to pages.
+  void add_direct_to(std::vector<Image>& pages) const;
+  /// What pixels see besides the lightmap: direct light, and indirect light where pixels are the receivers:
+  /// of the nearest in place and normal among 3 x 3 (the chapter, 9.8.1).
+  AddedLight added() const;
+
+  struct Seconds {
+    double direct = 0, indirect = 0;  ///< on the cloud; from there to the receivers
+  };
+  const Seconds& seconds() const { return seconds_; }
+
+ private:
+  Rgb nearest_pixel(const SurfacePoint& at, int x, int y) const;
+
+  const Package& package_;
+  const View& view_;
+  const Operator& op_;
+  const MovedLamps& lamps_;
+  std::vector<Rgb> indirect_;
+  std::vector<uint32_t> receiver_of_;  ///< of pixels: per pixel
+  Seconds seconds_;
+};
+
+}  // namespace sconce

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transfer/cluster_rows.h"
+
+#include <Eigen/Dense>
+
+#include "core/parallel.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr std::size_t kRank = ClusterRows::kRank, kLanes = ClusterRows::kLanes;
+constexpr float kMostWeight = 32767;
+
+using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::size_t filled_up(std::size_t rows) {
+  return (rows + kLanes - 1) / kLanes * kLanes;
+}
+
+/// The answers of rows to all training lights: rows x lights.
+Matrix answers(std::span<const std::vector<SparseEntry>> rows, const TrainingLight& light) {
+  Matrix out = Matrix::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(light.count()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    float* sums = out.data() + i * light.count();
+    for (const SparseEntry& e : rows[i]) {
+      const float* values = light.at_column(e.index).data();
+      for (std::size_t t = 0; t < light.count(); ++t) sums[t] += e.value * values[t];
+    }
+  }
+  return out;
+}
+
+/// Orthonormal columns that hold as much of the answers as sixteen can, by their principal components.
+Matrix principal(const Matrix& answers) {
+  const Eigen::MatrixXf gram = answers.transpose() * answers;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(gram);
+  Matrix out = Matrix::Zero(answers.rows(), static_cast<Eigen::Index>(kRank));
+  const Eigen::Index n = gram.rows(), used = std::min<Eigen::Index>(n, kRank);
+  const float largest = solver.eigenvalues()(n - 1);
+  for (Eigen::Index j = 0; j < used; ++j) {
+    const float value = solver.eigenvalues()(n - 1 - j);
+    if (!(value > 1e-6f * largest)) break;
+    out.col(j) = answers * solver.eigenvectors().col(n - 1 - j) / std::sqrt(value);
+  }
+  return out;
+}
+
+}  // namespace
+
+ClusterRowsBuilder::ClusterRowsBuilder(uint32_t rows, const TrainingLight& light, const Params& params)
+    : rows_(rows),
+      light_(light),
+      params_(params),
+      basis_((rows + params.cluster - 1) / params.cluster * static_cast<uint32_t>(kRank), light.columns(),
+             params.coefficients, light.squares()),
+      weights_(kRank * filled_up(rows)),
+      scales_(filled_up(rows)) {}
+
+void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::vector<SparseEntry>> rows) {
+  const Matrix seen = answers(rows, light_);
+  const Matrix weights = principal(seen);
+  const std::size_t first = cluster * params_.cluster;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = weights.row(static_cast<Eigen::Index>(i));
+    const float scale = row.cwiseAbs().maxCoeff() / kMostWeight;
+    scales_[first + i] = scale;
+    const std::size_t at = (first + i) / kLanes * kRank * kLanes + (first + i) % kLanes;
+    for (std::size_t j = 0; j < kRank && scale > 0; ++j)
+      weights_[at + j * kLanes] =
+          static_cast<int16_t>(std::lround(row(static_cast<Eigen::Index>(j)) / scale));
+  }
+
+  // The basis: weights' transpose times the rows, as sixteen squares at once.
+  std::vector<Sixteen> basis(light_.columns(), Sixteen{});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const float* w = weights.data() + i * kRank;
+    for (const SparseEntry& e : rows[i])
+      for (std::size_t j = 0; j < kRank; ++j) basis[e.index][j] += e.value * w[j];
+  }
+  haar_forward(basis);
+  CoefficientChooser chooser(light_.squares());
+  const std::size_t coarse = std::min(light_.coarse(), params_.coefficients);
+  for (uint32_t k = 1; k < basis.size(); ++k) {
+    float square = 0;
+    for (const float v : basis[k]) square += v * v;
+    if (k < coarse)
+      chooser.add(k, 1e30f);
+    else if (square > 0)
+      chooser.add(k, square);
+  }
+  const std::span<const uint32_t> chosen = chooser.choose(params_.coefficients - 1);
+
+  // What the coefficients that are left out would have answered goes to the coarse ones, as far as these
+  // tell.
+  Matrix left = weights.transpose() * seen;
+  const auto take = [&](uint32_t k) {
+    const float* values = light_.at_coefficient(k).data();
+    for (std::size_t j = 0; j < kRank; ++j) {
+      float* sums = left.data() + j * light_.count();
+      for (std::size_t t = 0; t < light_.count(); ++t) sums[t] -= basis[k][j] * values[t];
+    }
+  };
+  take(0);
+  for (const uint32_t k : chosen) take(k);
+  if (coarse == light_.coarse()) {
+    const Eigen::Map<const Matrix> fit(light_.fit().data(), static_cast<Eigen::Index>(coarse),
+                                       static_cast<Eigen::Index>(light_.count()));
+    const Matrix more = fit * left.transpose();
+    for (std::size_t k = 0; k < coarse; ++k)
+      for (std::size_t j = 0; j < kRank; ++j)
+        basis[k][j] += more(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j));
+  }
+  basis_.set_block(cluster, chosen, basis);
+}
+
+ClusterRowsBuilder::Result ClusterRowsBuilder::finish() {
+  struct Owned {
+    std::vector<int16_t> weights;
+    std::vector<float> scales;
+    std::shared_ptr<const void> basis;
+  };
+  auto owned = std::make_shared<Owned>();
+  auto basis = basis_.finish();
+  owned->weights = std::move(weights_), owned->scales = std::move(scales_), owned->basis = basis.owner;
+  Result result;
+  result.rows = {rows_, params_.cluster, basis.rows, owned->weights, owned->scales};
+  result.owner = std::move(owned);
+  return result;
+}
+
+void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+  std::vector<Rgb> sums(kRank * rows.clusters());
+  multiply(rows.basis, light, sums);
+  const std::size_t groups = rows.weights.size() / (kRank * kLanes);
+  constexpr std::size_t kGrain = 256;
+  parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
+    for (std::size_t g = part * kGrain; g < std::min(groups, (part + 1) * kGrain); ++g) {
+      const std::size_t first = g * kLanes;
+      const Rgb* basis = sums.data() + first / rows.cluster * kRank;
+      const int16_t* weights = rows.weights.data() + g * kRank * kLanes;
+      float red[kLanes] = {}, green[kLanes] = {}, blue[kLanes] = {};
+      for (std::size_t j = 0; j < kRank; ++j)
+        for (std::size_t r = 0; r < kLanes; ++r) {
+          const float w = static_cast<float>(weights[j * kLanes + r]);
+          red[r] += w * basis[j].r;
+          green[r] += w * basis[j].g;
+          blue[r] += w * basis[j].b;
+        }
+      for (std::size_t r = 0; r < std::min(kLanes, rows.rows - first); ++r)
+        out[first + r] = rows.scales[first + r] * Rgb(red[r], green[r], blue[r]);
+    }
+  });
+}
+
+}  // namespace sconce

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transfer/wavelet_rows.h"
+
+#include "transfer/quantise.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr std::size_t kBlock = WaveletRows::kBlock;
+
+struct Owned {
+  std::vector<uint32_t> first{0};
+  std::vector<uint16_t> indices;
+  std::vector<int8_t> codes;
+  std::vector<float> scales, means;
+};
+
+}  // namespace
+
+WaveletRowsBuilder::WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients,
+                                       std::vector<float> squares)
+    : rows_(rows),
+      columns_(columns),
+      coefficients_(coefficients),
+      squares_(std::move(squares)),
+      blocks_((rows + kBlock - 1) / kBlock) {}
+
+void WaveletRowsBuilder::set_block(std::size_t block, std::span<std::vector<SparseEntry>> rows,
+                                   Scratch& scratch) {
+  Block& out = blocks_[block];
+  const std::span transformed(scratch.transformed.data(), rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) haar_forward(rows[r], columns_, transformed[r]);
+  for (const std::vector<SparseEntry>& row : transformed)
+    for (const SparseEntry& e : row) scratch.chooser.add(e.index, e.value * e.value);
+  // The mean is one of the coefficients asked for.
+  const std::span<const uint32_t> chosen = scratch.chooser.choose(coefficients_ > 0 ? coefficients_ - 1 : 0);
+  out.indices.assign(chosen.begin(), chosen.end());
+  for (std::size_t k = 0; k < chosen.size(); ++k) scratch.place[chosen[k]] = static_cast<uint16_t>(k + 1);
+  out.codes.assign(kBlock * chosen.size(), 0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    float largest = 0;
+    for (const SparseEntry& e : transformed[r]) {
+      if (e.index == 0) out.means[r] = e.value;
+      if (scratch.place[e.index] != 0) largest = std::max(largest, std::abs(e.value));
+    }
+    out.scales[r] = largest;
+    for (const SparseEntry& e : transformed[r])
+      if (const std::size_t at = scratch.place[e.index]; at != 0)
+        out.codes[(at - 1) * kBlock + r] = quantise(e.value, largest);
+  }
+  for (const uint32_t index : chosen) scratch.place[index] = 0;
+}
+
+void WaveletRowsBuilder::set_block(std::size_t block, std::span<const uint32_t> chosen,
+                                   std::span<const Sixteen> values) {
+  Block& out = blocks_[block];
+  out.indices.assign(chosen.begin(), chosen.end());
+  out.codes.resize(kBlock * chosen.size());
+  out.means = values[0];
+  for (const uint32_t k : chosen)
+    for (std::size_t r = 0; r < kBlock; ++r) out.scales[r] = std::max(out.scales[r], std::abs(values[k][r]));
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    for (std::size_t r = 0; r < kBlock; ++r)
+      out.codes[kBlock * i + r] = quantise(values[chosen[i]][r], out.scales[r]);
+}
+
+WaveletRowsBuilder::Result WaveletRowsBuilder::finish() {
+  auto owned = std::make_shared<Owned>();
+  for (Block& block : blocks_) {
+    owned->indices.insert(owned->indices.end(), block.indices.begin(), block.indices.end());
+    owned->codes.insert(owned->codes.end(), block.codes.begin(), block.codes.end());
+    owned->scales.insert(owned->scales.end(), block.scales.begin(), block.scales.end());
+    owned->means.insert(owned->means.end(), block.means.begin(), block.means.end());
+    owned->first.push_back(static_cast<uint32_t>(owned->indices.size()));
+    block = {};
+  }
+  Result result;
+  result.rows = {columns_, rows_, owned->first, owned->indices, owned->codes, owned->scales, owned->means};
+  result.owner = std::move(owned);
+  return result;
+}
+
+std::vector<float> column_norms(const WaveletRows& rows) {
+  std::vector<double> squares(rows.columns, 0.0);
+  for (std::size_t block = 0; block < rows.blocks(); ++block) {
+    const float* scales = rows.scales.data() + kBlock * block;
+    for (uint32_t k = rows.first[block]; k < rows.first[block + 1]; ++k)
+      for (std::size_t r = 0; r < kBlock; ++r) {
+        const auto value = static_cast<double>(dequantise(rows.codes[kBlock * k + r], scales[r]));
+        squares[rows.indices[k]] += value * value;
+      }
+    for (std::size_t r = 0; r < kBlock; ++r) {
+      const auto mean = static_cast<double>(rows.means[kBlock * block + r]);
+      squares[0] += mean * mean;
+    }
+  }
+  std::vector<float> norms(squares.size());
+  for (std::size_t c = 0; c < norms.size(); ++c) norms[c] = static_cast<float>(std::sqrt(squares[c]));
+  return norms;
+}
+
+double cull(std::span<const float> norms, float threshold, std::span<Rgbx> light) {
+  double bound = 0;
+  for (std::size_t c = 0; c < light.size(); ++c) {
+    const Rgbx& l = light[c];
+    const float size = norms[c] * std::sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+    if (!(size < threshold)) continue;
+    bound += static_cast<double>(size);
+    light[c] = {};
+  }
+  return bound;
+}
+
+}  // namespace sconce
