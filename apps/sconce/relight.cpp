@@ -22,6 +22,15 @@ namespace sconce::app {
 
 namespace {
 
+/// A lamp's text; what a file would call an error is here a wrong use. @throws UsageError
+Light light_option(const std::string& text) {
+  try {
+    return parse_light(text, "--light " + text);
+  } catch (const Error& e) {
+    throw UsageError({}, e.what());
+  }
+}
+
 /// What `--light` and `--lights` ask for.
 struct Wanted {
   std::vector<Light> lights;
@@ -35,7 +44,7 @@ Wanted find_wanted(const std::vector<std::string>& texts, const std::string& fil
     if (text.starts_with(kGroup))
       wanted.groups.push_back(text.substr(kGroup.size()));
     else
-      wanted.lights.push_back(parse_light(text, "--light " + text));
+      wanted.lights.push_back(light_option(text));
   }
   if (!file.empty())
     for (Light& light : read_lights(file, progress)) wanted.lights.push_back(std::move(light));

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Transfer against the bake: a group's lamps through the operator give what its layer holds (test 34 of
+// methods.md).
+#include <gtest/gtest.h>
+
+#include "core/test_data.h"
+#include "image/io.h"
+#include "package/glb.h"
+#include "process.h"
+#include "small_scenes.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+namespace {
+
+using Names = std::vector<std::string>;
+
+class Relight : public testing::Test {
+ protected:
+  test::TempFolder folder;
+  const std::string package = (folder / "room.sconce").string();
+
+  static test::Outcome run(Names words, const Names& more = {}) {
+    words.insert(words.end(), more.begin(), more.end());
+    return test::run_sconce(words);
+  }
+  void expect_done(const test::Outcome& outcome) { ASSERT_EQ(outcome.code, 0) << outcome.err; }
+  std::string file(const std::string& name) const { return (folder / name).string(); }
+  void make_room() {
+    write_file(folder / "room.glb", write_glb(test::two_lamp_room(), "test"));
+    expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "256"}));
+    expect_done(run({"transfer", package, "--gather", "1024"}));
+  }
+  Names picture(const std::string& verb, const std::string& output, const Names& more) const {
+    Names words{verb,       package,  "--eye", "0,1.2,0.9", "--target",
+                "0,0.6,-1", "--size", "96x64", "-o",        file(output)};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  double mean(const std::string& name) const {
+    const Image image = read_exr(file(name));
+    double sum = 0;
+    for (const float v : image.data) sum += static_cast<double>(v);
+    return sum / static_cast<double>(image.data.size());
+  }
+};
+
+TEST_F(Relight, AGroupByTransferIsItsLayer) {
+  make_room();
+  expect_done(run(picture("render", "baked.exr", {"left=on", "--others", "off", "--device", "cpu"})));
+  expect_done(
+      run(picture("relight", "moved.exr", {"left=on", "--others", "off", "--light", "group,name=left"})));
+  const test::Outcome same =
+      run({"diff", file("moved.exr"), file("baked.exr"), "--metric", "rmse", "--fail-above", "6%"});
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_NEAR(mean("moved.exr") / mean("baked.exr"), 1, 0.02);
+}
+
+TEST_F(Relight, NewLampsAddAndScale) {
+  make_room();
+  const std::string lamp = "point,position=0.2,1.5,0.1,lumens=";
+  for (const char* lumens : {"100", "300"})
+    expect_done(
+        run(picture("relight", std::string(lumens) + ".exr", {"--others", "off", "--light", lamp + lumens})));
+  EXPECT_NEAR(mean("300.exr") / mean("100.exr"), 3, 1e-4);
+  expect_done(run(
+      picture("relight", "both.exr", {"--others", "off", "--light", lamp + "100", "--light", lamp + "300"})));
+  EXPECT_NEAR(mean("both.exr") / mean("100.exr"), 4, 1e-3);
+}
+
+TEST_F(Relight, MistakesAreNamed) {
+  make_room();
+  EXPECT_EQ(run(picture("relight", "x.exr", {})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--light", "group,name=nobody"})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--light", "lantern,position=0,0,0"})).code, 2);
+  const fs::path op = fs::path(package) / "operators" / "lightmap.bin";
+  std::string bytes = read_file(op);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write_file(op, bytes);
+  const test::Outcome damaged = run(picture("relight", "x.exr", {"--light", "group,name=left"}));
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_NE(damaged.err.find("lightmap.bin"), std::string::npos) << damaged.err;
+  fs::remove(op);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--light", "group,name=left"})).code, 1);
+}
+
+/// The same on a scene of others; figures in docs/operator-format.md.
+TEST_F(Relight, CornellTwoLights) {
+  const fs::path scene = test_data() / "glb" / "cornell-two-lights.glb";
+  SCONCE_NEEDS_DATA(scene);
+  expect_done(run({"bake", scene.string(), "--atlas", "128", "--samples", "64", "-o", package}));
+  expect_done(run({"transfer", package, "--gather", "4096"}));
+  const Names small{"--size", "128", "--others", "off", "left=on"};
+  expect_done(run({"render", package, "-o", file("baked.exr"), "--device", "cpu"}, small));
+  expect_done(run({"relight", package, "-o", file("moved.exr"), "--light", "group,name=left"}, small));
+  const test::Outcome same =
+      run({"diff", file("moved.exr"), file("baked.exr"), "--metric", "rmse", "--fail-above", "6%"});
+  EXPECT_EQ(same.code, 0) << same.out;
+}
+
+}  // namespace
+}  // namespace sconce
