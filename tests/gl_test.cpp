@@ -3,11 +3,17 @@
 // (silhouettes), at pixel centres.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/test_data.h"
+#include "gpu/mix.h"
+#include "gpu/view.h"
 #include "image/io.h"
 #include "package/test_package.h"
+#include "picture/render.h"
 #include "process.h"
 #include "stage.h"
+#include "tone/apply.h"
 
 namespace fs = std::filesystem;
 
@@ -24,13 +30,14 @@ class GlPictures : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   /// By every curve, through the scene's first or the named camera.
-  void expect_alike(const std::vector<std::string>& faders = {}, const std::string& camera = {}) const {
+  void expect_alike(const std::vector<std::string>& faders = {}, const std::string& camera = {},
+                    const std::string& tier = "auto") const {
     const Package package = Package::open(path("x.sconce"));
     const MixSpec mix = make_mix(package.manifest().groups, faders, "", {});
     const std::vector<Image> pages = mix_pages(package, mix);
     const Metering metering = meter(package, mix, pages);
     const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
-    const auto cpu = app::make_stage(package, "cpu"), gl = app::make_stage(package, "gl");
+    const auto cpu = app::make_stage(package, "cpu"), gl = app::make_stage(package, "gl", tier);
     for (const auto& stage : {cpu.get(), gl.get()})
       stage->draw(*find_camera(stage->scene(), camera), mix, pages,
                   {.width = 320, .height = 240, .samples = 1}, {});
@@ -62,6 +69,85 @@ TEST_F(GlPictures, OurBathroom) {
   bake(fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb", "256");
   expect_alike();
   expect_alike({"window=off", "mirror=2700K,+2ev"}, "shower");
+  expect_alike({}, "", "half");
+}
+
+/// The package's layers in another encoding.
+gpu::EncodedLayers encoded_as(const Package& package, const EncodingChoice& choice) {
+  const Manifest& m = package.manifest();
+  gpu::EncodedLayers layers;
+  layers.textures = share_textures(std::vector<EncodingChoice>(m.groups.size(), choice));
+  for (const GroupInfo& group : m.groups) layers.colors.push_back(choice.luminance ? group.color : Rgb(1));
+  for (LayerTexture& texture : layers.textures) {
+    layers.images.emplace_back();
+    for (int page = 0; page < m.pages; ++page) {
+      std::vector<Image> images;
+      std::vector<const Image*> pointers;
+      for (const std::size_t g : texture.groups) images.push_back(package.layer(g, page));
+      for (const Image& image : images) pointers.push_back(&image);
+      layers.images.back().push_back(texture.encode(pointers));
+      texture.gain.push_back(layers.images.back().back().gain);
+    }
+  }
+  return layers;
+}
+
+/// By the CPU, of the same codes.
+std::vector<Image> mixed(const gpu::EncodedLayers& layers, const MixSpec& mix) {
+  std::vector<Image> pages(static_cast<std::size_t>(layers.pages()),
+                           Image::rgb(layers.width(), layers.height()));
+  for (std::size_t t = 0; t < layers.textures.size(); ++t)
+    for (std::size_t i = 0; i < layers.textures[t].groups.size(); ++i) {
+      const std::size_t g = layers.textures[t].groups[i];
+      for (std::size_t page = 0; page < pages.size(); ++page) {
+        const Image layer = layers.textures[t].decode(layers.images[t][page], i, layers.colors[g]);
+        const Rgb& w = mix.weights[g];
+        for (std::size_t p = 0; p < layer.data.size(); p += 3) {
+          float* out = &pages[page].data[p];
+          out[0] += w.r * layer.data[p], out[1] += w.g * layer.data[p + 1], out[2] += w.b * layer.data[p + 2];
+        }
+      }
+    }
+  return pages;
+}
+
+TEST_F(GlPictures, EveryEncodingInEveryTier) {
+  bake(fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb", "256");
+  const Package package = Package::open(path("x.sconce"));
+  const MixSpec mix = make_mix(package.manifest().groups, std::vector<std::string>{"window=+2ev"}, "", {});
+  const Metering metering = meter(package, mix, mix_pages(package, mix));
+  const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
+  const ToneMapper& agx = find_tone_mapper("agx");
+  const PictureParams params{.width = 240, .height = 160, .samples = 1};
+  const View cpu(package);
+  const Camera camera = cpu.camera("");
+  const gpu::Context context;
+  const ShownScene shown(package);
+  gpu::View gl(context, shown);
+  std::set<std::string> shaders;
+  for (const char* name :
+       {"f32", "f16", "exp8", "rgbe8", "srgbe8", "multi8", "bc6h", "lum:f16", "lum:exp8"}) {
+    const gpu::EncodedLayers stored = encoded_as(package, parse_encoding(name));
+    for (const ShaderTier& tier : shader_tiers()) {
+      SCOPED_TRACE(std::string(name) + " " + std::string(tier.name));
+      const gpu::EncodedLayers layers = gpu::for_tier(stored, tier);
+      gpu::PixelMix light(context, layers, tier);
+      if (!shaders.insert(light.glsl()).second) continue;  // 8-bit codes are the same in every tier
+      const Image expected = cpu.render(camera, mix, mixed(layers, mix), params);
+      light.set(mix.weights);
+      gl.draw(camera, mix.weights, light, params);
+      EXPECT_GE(share_alike(tone_map(expected, exposure, agx), gl.toned(exposure, agx)), 0.995);
+      // Linear, relative to each value but for what is darker than a hundredth of the mean.
+      const Image linear = gl.linear();
+      std::size_t alike = 0;
+      const auto foot = static_cast<float>(0.01 * metering.log_mean);
+      for (std::size_t i = 0; i < expected.data.size(); ++i)
+        alike +=
+            std::abs(linear.data[i] - expected.data[i]) <= 1e-3f * std::max(expected.data[i], foot) ? 1 : 0;
+      EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(expected.data.size()));
+    }
+  }
+  EXPECT_GE(shaders.size(), 15u);
 }
 
 // The block's sides lie in the source twice, one on the other: either may be seen.

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "shader/composer.h"
 #include "tone/tone.h"
 
 namespace sconce::app {
@@ -75,6 +76,9 @@ void PictureOptions::declare(Options& options) {
   options.option("--tone", &tone, "agx, drago, drago2006, reinhard, aces, neutral, linear (default: agx)");
   options.option("--device", &device,
                  "auto, cpu, gl (OpenGL); auto draws by OpenGL where there is a graphics device");
+  options.option(
+      "--tier", &tier,
+      "what OpenGL's textures may be: auto, full, half, unfiltered, byte; for trying lesser devices");
 }
 
 void PictureOptions::apply(const Preset& preset) {
@@ -99,6 +103,10 @@ void PictureOptions::check() const {
   if (!tone.empty()) find_tone_mapper(tone);
   if (device != "auto" && device != "cpu" && device != "gl")
     throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu, gl");
+  if (tier != "auto") {
+    find_shader_tier(tier);
+    if (device == "cpu") throw UsageError({}, "--tier needs --device gl");
+  }
 }
 
 ExposureChoice PictureOptions::exposure_choice() const {

@@ -34,7 +34,7 @@ struct ExposureChoice {
 };
 
 struct PictureOptions {
-  std::string camera, eye, target, size, exposure, ev100, tone, device = "auto";
+  std::string camera, eye, target, size, exposure, ev100, tone, device = "auto", tier = "auto";
   double fov = 0;
   int samples = 16;
 

@@ -2,7 +2,7 @@
 #include "stage.h"
 
 #include "core/error.h"
-#include "gpu/view.h"
+#include "gpu/way.h"
 #include "picture/render.h"
 #include "tone/apply.h"
 
@@ -33,8 +33,13 @@ class CpuStage : public Stage {
 
 class GlStage : public Stage {
  public:
-  GlStage(const Package& package, std::unique_ptr<gpu::Context> context)
-      : package_(&package), context_(std::move(context)), shown_(package), view_(*context_, shown_) {}
+  GlStage(const Package& package, std::unique_ptr<gpu::Context> context, const std::string& tier)
+      : package_(&package),
+        context_(std::move(context)),
+        tier_(&(tier == "auto" ? gpu::tier_of(context_->capabilities()) : find_shader_tier(tier))),
+        shown_(package),
+        layers_(gpu::for_tier(gpu::read_layers(package), *tier_)),
+        view_(*context_, shown_) {}
   std::string device() const override { return context_->capabilities().renderer; }
   const Scene& scene() const override { return shown_.scene; }
   // Finding a free view needs rays.
@@ -44,7 +49,8 @@ class GlStage : public Stage {
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
     check_pages(package_->manifest(), mix, pages);
-    view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress);
+    const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
+    view_.draw(camera, mix.weights, *light, params, progress);
   }
   Image linear() const override { return view_.linear(); }
   Image coverage() const override { return view_.coverage(); }
@@ -55,7 +61,9 @@ class GlStage : public Stage {
  private:
   const Package* package_;
   std::unique_ptr<gpu::Context> context_;
+  const ShaderTier* tier_;
   ShownScene shown_;
+  gpu::EncodedLayers layers_;
   gpu::View view_;
 };
 
@@ -73,8 +81,10 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device) {
 
 }  // namespace
 
-std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device) {
-  if (auto context = open_context(device)) return std::make_unique<GlStage>(package, std::move(context));
+std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
+                                  const std::string& tier) {
+  if (auto context = open_context(device))
+    return std::make_unique<GlStage>(package, std::move(context), tier);
   return std::make_unique<CpuStage>(package);
 }
 

@@ -19,7 +19,7 @@ class Stage {
   /// One at eye height, for a scene without cameras.
   virtual Camera eye_height_camera(const Progress& progress) const = 0;
   /// Draws; what is seen is then told by the functions below.
-  /// @param pages  mix_pages() of the same mix
+  /// @param pages  mix_pages() of the same mix; OpenGL mixes by itself
   virtual void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                     const PictureParams& params, const Progress& progress) = 0;
   virtual Image linear() const = 0;    ///< cd/m2, before exposure
@@ -29,7 +29,9 @@ class Stage {
 
 /// @param package  must outlive it
 /// @param device   cpu, gl, or auto: OpenGL where there is a graphics device
+/// @param tier     of shader/composer.h, for OpenGL; "auto" = the best that the device has
 /// @throws Error when gl is asked for and there is no OpenGL
-std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device);
+std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
+                                  const std::string& tier = "auto");
 
 }  // namespace sconce::app

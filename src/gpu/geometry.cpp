@@ -42,6 +42,15 @@ std::vector<unsigned char> as_rgba(const Image8& image) {
   return out;
 }
 
+std::vector<float> decode_srgb(const std::vector<unsigned char>& rgba) {
+  std::array<float, 256> linear{};
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = srgb_to_linear(static_cast<float>(i) / 255.0f);
+  std::vector<float> out(rgba.size());
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    out[i] = i % 4 == 3 ? static_cast<float>(rgba[i]) / 255.0f : linear[rgba[i]];
+  return out;
+}
+
 Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
   const World& world = shown.world;
   const Material& material = shown.scene[world.materials[triangle]];
@@ -119,14 +128,20 @@ void Geometry::upload_textures(const Context& context) {
     const sconce::Texture& texture = scene[use.texture];
     if (texture.pixels.data.empty()) return;
     TextureParams params;
-    params.format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    // Mesa's software decodes sRGB by a polynomial that is off by up to 0.7 %.
+    const bool decoded = srgb && context.capabilities().software;
+    params.format = decoded ? GL_RGBA16F : srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
     params.width = texture.pixels.width;
     params.height = texture.pixels.height;
     params.filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
     params.wrap_u = gl_wrap(texture.wrap_u);
     params.wrap_v = gl_wrap(texture.wrap_v);
     Texture made(context, params, "texture '" + texture.name + "'");
-    made.upload(GL_RGBA, GL_UNSIGNED_BYTE, as_rgba(texture.pixels).data());
+    const std::vector<unsigned char> codes = as_rgba(texture.pixels);
+    if (decoded)
+      made.upload(GL_RGBA, GL_FLOAT, decode_srgb(codes).data());
+    else
+      made.upload(GL_RGBA, GL_UNSIGNED_BYTE, codes.data());
     textures_.emplace(Use{use.texture.value, srgb}, std::move(made));
   };
   for (const Material& material : scene.materials) {
