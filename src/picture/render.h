@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "mix/mix.h"
 #include "package/shown_scene.h"
+#include "picture/hits.h"
 #include "scene/lens.h"
 #include "trace/tracer.h"
 
@@ -28,6 +29,10 @@ class View {
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr) const;
+  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move.
+  /// @throws as render()
+  CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
+                  const Progress& progress = {}) const;
 
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
   const World& world() const { return shown_.world; }
