@@ -16,6 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace sconce::HWY_NAMESPACE {
 
+namespace {
+
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -57,6 +59,7 @@ void shade(const CameraHits& hits, int y, const std::vector<Image>& pages, float
 }
 #endif
 
+}  // namespace
 }  // namespace sconce::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -15,6 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace sconce::HWY_NAMESPACE {
 
+namespace {
+
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -81,6 +83,7 @@ std::size_t lanes() {
   return hn::Lanes(Floats());
 }
 
+}  // namespace
 }  // namespace sconce::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
