@@ -2,46 +2,12 @@
 // Pictures from cached camera hits against those of rays.
 #include "picture/show.h"
 
-#include <gtest/gtest.h>
-
 #include "core/error.h"
 #include "core/parallel.h"
-#include "package/test_package.h"
-#include "picture/render.h"
-#include "tone/apply.h"
+#include "picture/test_pictures.h"
 
 namespace sconce {
 namespace {
-
-/// A wall with a lamp before it and a sky around: two pages, three groups, one light of no group.
-PackageContents lit_wall(int width, int height) {
-  PackageContents c = test_package(3, 2, width, height);
-  c.scene.materials[0].base_color = {0.8f, 0.5f, 0.1f};
-  for (const Id<LightGroup> group : {Id<LightGroup>(0), Id<LightGroup>()}) {
-    Material lamp;
-    lamp.emission = {5, 4, 1};
-    lamp.base_color = Rgb(0.3f);
-    c.scene.materials.push_back(lamp);
-    Mesh quad = test_quad("lamp", Id<Material>(c.scene.materials.size() - 1), 0.5f);
-    for (Vec3& p : quad.positions) p = {0.2f * p.x + (group ? 0.3f : -0.3f), 0.2f * p.y, p.z};
-    c.scene.meshes.push_back(quad);
-    Instance instance;
-    instance.name = "lamp";
-    instance.mesh = Id<Mesh>(c.scene.meshes.size() - 1);
-    instance.group = group;
-    c.scene.instances.push_back(instance);
-    c.manifest.instance_pages.push_back(1);
-    c.manifest.instance_twins.push_back(-1);
-  }
-  Light sky;
-  sky.name = "sky";
-  sky.group = Id<LightGroup>(2);
-  sky.intensity = {0.2f, 0.4f, 0.9f};
-  sky.shape = SkyLight{};
-  c.scene.lights.push_back(sky);
-  c.scene.cameras[0].yfov = 1.3f;  // past the wall's edges
-  return c;
-}
 
 class Show : public testing::Test {
  protected:
@@ -60,14 +26,6 @@ class Show : public testing::Test {
   std::vector<Image> pages_;
   PictureParams params_{.width = 70, .height = 45, .samples = 1};
 };
-
-int largest_difference(const Image8& a, const Image8& b) {
-  EXPECT_EQ(a.data.size(), b.data.size());
-  int largest = 0;
-  for (std::size_t i = 0; i < a.data.size(); ++i)
-    largest = std::max(largest, std::abs(int{a.data[i]} - int{b.data[i]}));
-  return largest;
-}
 
 // Also of pages too small for vectors, where there is no neighbour.
 TEST_F(Show, IsThePictureOfRaysByEveryCurve) {
