@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faders moved, picture shown: 1920 x 1080 from cached camera hits, 16 groups in halves, all on the CPU.
-#include <bit>
 #include <random>
 
 #include "copy.h"
 #include "encode/half.h"
 #include "layers.h"
+#include "mix/tone_lightmap.h"
 #include "picture/show.h"
 
 using namespace sconce;
@@ -72,10 +72,8 @@ double show_bytes(const CameraHits& hits) {
   return static_cast<double>(hits.bytes()) + seen_bytes(hits) + 3.0 * kWidth * kHeight;
 }
 
-const ToneCodes& tone(const char* curve) {
-  static ToneCodes codes({}, find_tone_mapper("agx"));
-  codes = ToneCodes(auto_exposure(1, 40), find_tone_mapper(curve));
-  return codes;
+ToneCodes tone(const char* curve) {
+  return ToneCodes(auto_exposure(1, 40), find_tone_mapper(curve));
 }
 
 void show_only(benchmark::State& state, const char* curve) {
@@ -84,7 +82,7 @@ void show_only(benchmark::State& state, const char* curve) {
   Mixer mixer = make_mixer(1, find_encoding("f16"), side);
   const std::vector<Image>& pages = mixer.mix(make_weights(1, 1));
   const MixSpec mix = make_weights(kGroups, 1);
-  const ToneCodes& codes = tone(curve);
+  const ToneCodes codes = tone(curve);
   measure(state, show_bytes(hits),
           [&] { benchmark::DoNotOptimize(show(hits, mix, pages, codes).data.data()); });
 }
@@ -99,10 +97,23 @@ void faders(benchmark::State& state, std::size_t moved) {
   const double texels = static_cast<double>(side) * side;
   const double mix_bytes =
       static_cast<double>(mixer.bytes() * moved / kGroups) + (moved == kGroups ? 12.0 : 24.0) * texels;
-  const ToneCodes& codes = tone("agx");
+  const ToneCodes codes = tone("agx");
   measure(state, mix_bytes + show_bytes(hits), [&] {
     for (std::size_t g = 0; g < moved; ++g) mix.weights[g] = mix.weights[g] * 1.001f;
     benchmark::DoNotOptimize(show(hits, mix, mixer.mix(mix), codes).data.data());
+  });
+}
+
+/// System A's fallback: four groups combined and tone mapped into an 8-bit lightmap.
+void fallback(benchmark::State& state) {
+  const int side = static_cast<int>(state.range(0));
+  Mixer mixer = make_mixer(4, find_encoding("f16"), side);
+  MixSpec mix = make_weights(4, 1);
+  const double texels = static_cast<double>(side) * side;
+  measure(state, static_cast<double>(mixer.bytes()) + (24.0 + 3.0) * texels, [&] {
+    for (Rgb& w : mix.weights) w = w * 1.001f;
+    const auto codes = tone_lightmap(mixer.mix(mix), auto_exposure(1, 40), find_tone_mapper("drago2006"));
+    benchmark::DoNotOptimize(codes.front().data.data());
   });
 }
 
@@ -118,3 +129,4 @@ BENCHMARK_CAPTURE(show_only, drago, "drago")->Apply(setting);
 BENCHMARK_CAPTURE(show_only, neutral, "neutral")->Apply(setting);
 BENCHMARK_CAPTURE(faders, one, 1)->Apply(setting);
 BENCHMARK_CAPTURE(faders, all, kGroups)->Apply(setting);
+BENCHMARK(fallback)->Apply(setting);
