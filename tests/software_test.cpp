@@ -16,7 +16,7 @@ TEST(Software, OurBathroomByEveryCurve) {
   const std::string path = (folder / "x.sconce").string();
   const auto outcome =
       test::run_sconce({"bake", std::string(SCONCE_SOURCE_DIR) + "/scenes/bathroom.glb", "-o", path,
-                        "--atlas", "128", "--samples", "2", "--solver", "path", "--bounces", "1", "--quiet"});
+                        "--atlas", "256", "--samples", "2", "--solver", "path", "--bounces", "1", "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Package package = Package::open(path);
   const View view(package);
