@@ -8,25 +8,15 @@
 namespace sconce {
 namespace {
 
-class FixedFunction : public testing::Test {
+class FixedFunction : public PictureTest {
  protected:
   void open(const PackageContents& contents) {
-    write_package(folder_ / "x.sconce", contents);
-    package_ = std::make_unique<Package>(Package::open(folder_ / "x.sconce"));
-    view_ = std::make_unique<View>(*package_);
-    mix_.weights.assign(contents.manifest.groups.size(), Rgb(0.7f));
-    pages_ = mix_pages(*package_, mix_);
+    PictureTest::open(contents, {std::vector<Rgb>(contents.manifest.groups.size(), Rgb(0.7f))});
   }
   Image8 draw(const Exposure& exposure, const ToneMapper& mapper) const {
-    return to_codes(fixed_function(view_->hits(view_->camera(""), params_), mix_,
+    return to_codes(fixed_function(view_->hits(camera_, params_), mix_,
                                    tone_lightmap(pages_, exposure, mapper), exposure, mapper));
   }
-  TemporaryFolder folder_;
-  std::unique_ptr<Package> package_;
-  std::unique_ptr<View> view_;
-  MixSpec mix_;
-  std::vector<Image> pages_;
-  PictureParams params_{.width = 70, .height = 45, .samples = 1};
 };
 
 TEST_F(FixedFunction, IsThePictureOfRaysInTheSameOrder) {
@@ -34,8 +24,7 @@ TEST_F(FixedFunction, IsThePictureOfRaysInTheSameOrder) {
     open(lit_wall(width, height));
     const Exposure exposure = auto_exposure(0.6, 10);
     for (const ToneMapper& mapper : tone_mappers()) {
-      const Image8 plain =
-          plain_fixed_function(*view_, view_->camera(""), mix_, pages_, params_, exposure, mapper);
+      const Image8 plain = plain_fixed_function(*view_, camera_, mix_, pages_, params_, exposure, mapper);
       EXPECT_GE(share_alike(draw(exposure, mapper), plain), 0.995) << mapper.name;
     }
   }
@@ -58,9 +47,8 @@ TEST_F(FixedFunction, OrderDoesNotMatterOnWhite) {
   open(c);
   const Exposure exposure = auto_exposure(50, 200);
   for (const ToneMapper& mapper : tone_mappers())
-    EXPECT_LE(largest_difference(
-                  draw(exposure, mapper),
-                  tone_map(view_->render(view_->camera(""), mix_, pages_, params_), exposure, mapper)),
+    EXPECT_LE(largest_difference(draw(exposure, mapper),
+                                 tone_map(view_->render(camera_, mix_, pages_, params_), exposure, mapper)),
               1)
         << mapper.name;
 }
@@ -68,7 +56,7 @@ TEST_F(FixedFunction, OrderDoesNotMatterOnWhite) {
 TEST_F(FixedFunction, OtherPagesAreRefused) {
   open(lit_wall(8, 8));
   const ToneMapper& agx = find_tone_mapper("agx");
-  const CameraHits hits = view_->hits(view_->camera(""), params_);
+  const CameraHits hits = view_->hits(camera_, params_);
   EXPECT_THROW(fixed_function(hits, mix_, {}, {}, agx), Error);
   EXPECT_THROW(fixed_function(hits, {{Rgb(1)}}, tone_lightmap(pages_, {}, agx), {}, agx), Error);
 }

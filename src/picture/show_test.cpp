@@ -9,22 +9,11 @@
 namespace sconce {
 namespace {
 
-class Show : public testing::Test {
+class Show : public PictureTest {
  protected:
   void open(const PackageContents& contents) {
-    write_package(folder_ / "x.sconce", contents);
-    package_ = std::make_unique<Package>(Package::open(folder_ / "x.sconce"));
-    view_ = std::make_unique<View>(*package_);
-    camera_ = view_->camera("");
-    pages_ = mix_pages(*package_, mix_);
+    PictureTest::open(contents, {{Rgb(0.5f), {0, 1, 2}, Rgb(1)}});
   }
-  TemporaryFolder folder_;
-  std::unique_ptr<Package> package_;
-  std::unique_ptr<View> view_;
-  Camera camera_;
-  MixSpec mix_{{Rgb(0.5f), {0, 1, 2}, Rgb(1)}};
-  std::vector<Image> pages_;
-  PictureParams params_{.width = 70, .height = 45, .samples = 1};
 };
 
 // Also of pages too small for vectors, where there is no neighbour.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "package/test_package.h"
 #include "picture/render.h"
 #include "tone/apply.h"
@@ -39,6 +41,26 @@ inline PackageContents lit_wall(int width, int height) {
   c.scene.cameras[0].yfov = 1.3f;  // past the wall's edges
   return c;
 }
+
+/// A package on disk, opened, mixed and looked at.
+class PictureTest : public testing::Test {
+ protected:
+  void open(const PackageContents& contents, const MixSpec& mix) {
+    write_package(folder_ / "x.sconce", contents);
+    package_ = std::make_unique<Package>(Package::open(folder_ / "x.sconce"));
+    view_ = std::make_unique<View>(*package_);
+    camera_ = view_->camera("");
+    mix_ = mix;
+    pages_ = mix_pages(*package_, mix);
+  }
+  TemporaryFolder folder_;
+  std::unique_ptr<Package> package_;
+  std::unique_ptr<View> view_;
+  Camera camera_;
+  MixSpec mix_;
+  std::vector<Image> pages_;
+  PictureParams params_{.width = 70, .height = 45, .samples = 1};
+};
 
 /// In codes.
 inline int largest_difference(const Image8& a, const Image8& b) {
