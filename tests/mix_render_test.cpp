@@ -65,6 +65,29 @@ TEST_F(MixRender, SeveralPagesAreNumbered) {
   EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
 }
 
+// 120 lux on a white surface; the wall's own middle grey is 0.5 of that.
+TEST_F(MixRender, LightmapForHardwareWithoutShaders) {
+  write(2);
+  ASSERT_EQ(run({"mix", "-o", path("m.png"), "--tone", "linear"}).code, 0);
+  for (const std::string name : {"m.0.png", "m.1.png"}) {
+    const Image page = read_image(path(name));
+    EXPECT_EQ(page.width, 8);
+    for (const float v : page.data) EXPECT_NEAR(v, 0.36f, 0.004f);
+  }
+  write(1);
+  write_file(path("mood.toml"), "tone = \"linear\"\nexposure = \"-1\"\n[mix]\nb = \"off\"\n");
+  ASSERT_EQ(run({"mix", "--preset", path("mood.toml"), "-o", path("p.png")}).code, 0);
+  EXPECT_NEAR(read_image(path("p.png")).data[0], 0.18f, 0.003f);
+  ASSERT_EQ(run({"render", "--device", "software", "--tone", "linear", "--size", "8", "--samples", "4", "-o",
+                 path("s.png"), "--coverage", path("c.exr")})
+                .code,
+            0);
+  // Codes of 0.36 and 0.5 multiplied.
+  const float expected = srgb_to_linear(linear_to_srgb(0.36f) * linear_to_srgb(0.5f));
+  for (const float v : read_image(path("s.png")).data) EXPECT_NEAR(v, expected, 0.004f);
+  EXPECT_EQ(read_exr(path("c.exr")).data.front(), 0);
+}
+
 TEST_F(MixRender, LayeredPictureMixesToo) {
   Image image(2, 2, {"key.R", "key.G", "key.B", "fill.R", "fill.G", "fill.B"});
   for (float& v : image.data) v = 2;
@@ -72,6 +95,7 @@ TEST_F(MixRender, LayeredPictureMixesToo) {
   ASSERT_EQ(run_sconce({"mix", path("render.exr"), "fill=off", "key=3", "-o", path("m.exr")}).code, 0);
   EXPECT_EQ(read_exr(path("m.exr")).rgb_at(1, 1), Rgb(6));
   EXPECT_EQ(run_sconce({"mix", path("render.exr"), "fil=off", "-o", path("m.exr")}).code, 2);
+  EXPECT_EQ(run_sconce({"mix", path("render.exr"), "-o", path("m.png")}).code, 2);
 }
 
 TEST_F(MixRender, LinearPictureHoldsCandelas) {
@@ -148,13 +172,16 @@ TEST_F(MixRender, BadRequestsAreOneLineAndLeaveNothing) {
   expect_error({"render", "a=dim", "-o", out}, 2, "'dim'");
   expect_error({"render", "a=2700K,#ff0000", "-o", out}, 2, "two colours");
   expect_error({"render", "--tone", "agxx", "-o", out}, 2, "agx");
-  expect_error({"render", "--device", "vulkan", "-o", out}, 2, "auto, cpu, gl");
+  expect_error({"render", "--device", "vulkan", "-o", out}, 2, "auto, cpu, gl, software");
   expect_error({"render", "--exposure", "1", "--ev100", "1", "-o", out}, 2, "exclude");
   expect_error({"render", "--eye", "1,2,3", "-o", out}, 2, "--target");
   expect_error({"render", "-o", path("x.gif")}, 2, ".png");
   expect_error({"render", "-o", path("no/x.png")}, 1, "no/x.png");
   expect_error({"mix", "-o", path("no/x.exr")}, 1, "no/x.exr");
-  expect_error({"mix", "-o", path("x.png")}, 2, ".exr");
+  expect_error({"mix", "-o", path("x.jpg")}, 2, ".exr, .png");
+  expect_error({"mix", "-o", path("x.exr"), "--tone", "agx"}, 2, "-o FILE.png");
+  expect_error({"mix", "-o", path("x.png"), "--exposure", "bright"}, 2, "'bright'");
+  expect_error({"render", "--device", "software", "-o", path("x.exr")}, 2, "-o FILE.png");
   expect_error({"mix"}, 2, "-o");
   EXPECT_EQ(files(), 1u);
 }

@@ -13,7 +13,9 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix/layered_image.h"
+#include "mix/tone_lightmap.h"
 #include "mix_options.h"
+#include "tone_options.h"
 
 namespace fs = std::filesystem;
 
@@ -24,15 +26,18 @@ namespace {
 struct Mixed {
   std::vector<GroupInfo> groups;
   MixSpec mix;
-  std::vector<Image> pages;
+  std::vector<Image> pages;      ///< lux
+  std::vector<Image8> lightmap;  ///< of the pages, where display codes are asked for
 };
 
 /// A package, or a picture with layers; which of the two is told by content.
-Mixed mix_input(const std::string& input, const MixOptions& settings, const Progress& progress) {
-  const Preset preset = settings.preset();
+/// @param tone  when given: codes for a display, too
+Mixed mix_input(const std::string& input, const MixOptions& settings, const Preset& preset,
+                const ToneOptions* tone, const Progress& progress) {
   Mixed out;
   if (fs::is_regular_file(input)) {
     if (settings.raw) throw UsageError("option '--raw'", input + " is a picture", "a package");
+    if (tone != nullptr) throw UsageError("option '--output'", input + " is a picture", "FILE.exr");
     Image image;
     try {
       image = read_exr(input);
@@ -53,6 +58,10 @@ Mixed mix_input(const std::string& input, const MixOptions& settings, const Prog
     progress.at("mix", static_cast<uint64_t>(page), static_cast<uint64_t>(package.manifest().pages));
     out.pages.push_back(mix_page(package, out.mix, page));
   }
+  if (tone != nullptr) {
+    const Exposure exposure = tone->exposure_choice().resolve(meter(package, out.mix, out.pages));
+    out.lightmap = tone_lightmap(out.pages, exposure, tone->mapper());
+  }
   return out;
 }
 
@@ -69,12 +78,14 @@ std::vector<std::string> output_files(const std::string& output, std::size_t pag
 }
 
 /// All pages are written before the first one is put in place.
-void write_pages(const std::vector<std::string>& files, const std::vector<Image>& pages) {
+/// @param write  writes a page to a path
+void write_pages(const std::vector<std::string>& files,
+                 const std::function<void(const fs::path&, std::size_t)>& write) {
   std::vector<std::unique_ptr<Beside>> written;
-  for (std::size_t i = 0; i < pages.size(); ++i) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
     written.push_back(std::make_unique<Beside>(files[i]));
     try {
-      write_exr(written.back()->path(), pages[i], PixelType::full);
+      write(written.back()->path(), i);
     } catch (const Error& e) {
       const std::string temporary = written.back()->path().string();
       std::string what = e.what();
@@ -100,17 +111,26 @@ int run_mix(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
   std::string input, output;
   MixOptions settings;
+  ToneOptions tone;
   Options options("mix",
-                  "Adds a package's layers (or an OpenEXR picture's) with the groups' weights: one linear "
-                  "lightmap per page, in lux.");
+                  "Adds a package's layers (or an OpenEXR picture's) with the groups' weights: one lightmap "
+                  "per page, linear in lux, or as codes for a display.");
   options.positional("PACKAGE", &input,
                      "NAME.sconce, or an OpenEXR picture with layers GROUP.R, GROUP.G, GROUP.B");
   settings.declare(options);
+  tone.declare(options);
   options.option("-o,--output", &output,
-                 "OpenEXR to write; several pages get .0, .1, ... before .exr; - is stdout");
+                 "OpenEXR (lux), or PNG of a package: exposure and tone curve of E/pi, for hardware without "
+                 "shaders; several pages get .0, .1, ... before the ending; - is OpenEXR on stdout");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (output.empty()) throw UsageError({}, "missing -o FILE.exr: where to write the lightmap");
-  check_output(output, {".exr"});
+  if (output.empty()) throw UsageError({}, "missing -o FILE.exr or FILE.png: where to write the lightmap");
+  check_output(output, {".exr", ".png"});
+  const bool toned = lower(fs::path(output).extension().string()) == ".png";
+  if (!toned && !(tone.exposure.empty() && tone.ev100.empty() && tone.curve.empty()))
+    throw UsageError({}, "--exposure, --ev100 and --tone need -o FILE.png: an OpenEXR lightmap stays in lux");
+  const Preset preset = settings.preset();
+  tone.apply(preset);
+  tone.check();
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
 
   const ThreadLimit threads(options.threads);
@@ -118,9 +138,14 @@ int run_mix(int argc, const char* const* argv) {
   std::vector<std::string> files;
   {
     const Progress progress = make_progress(options);
-    mixed = mix_input(input, settings, progress);
+    mixed = mix_input(input, settings, preset, toned ? &tone : nullptr, progress);
     files = output_files(output, mixed.pages.size());
-    output == "-" ? write_page_to_stdout(mixed.pages) : write_pages(files, mixed.pages);
+    if (output == "-")
+      write_page_to_stdout(mixed.pages);
+    else
+      write_pages(files, [&](const fs::path& path, std::size_t page) {
+        toned ? write_png(path, mixed.lightmap[page]) : write_exr(path, mixed.pages[page], PixelType::full);
+      });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Image& page = mixed.pages.front();

@@ -8,21 +8,12 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "shader/composer.h"
-#include "tone/tone.h"
 
 namespace sconce::app {
 
 namespace {
 
 constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16;
-constexpr double kMaxStops = 64;
-
-double parse_stops(const std::string& text, const std::string& option, const char* allowed) {
-  const std::optional<double> value = parse_number(text);
-  if (!value || !(std::abs(*value) <= kMaxStops))
-    throw UsageError("option '" + option + "'", "'" + text + "' is not understood", allowed);
-  return *value;
-}
 
 int parse_side(const std::string& text, const std::string& whole) {
   const std::optional<double> value = parse_number(text);
@@ -53,16 +44,6 @@ Vec3 parse_point(const std::string& text, const std::string& option) {
   return point;
 }
 
-Exposure ExposureChoice::resolve(const Metering& metering) const {
-  return kind == Kind::ev100 ? ev100_exposure(value, metering.maximum)
-                             : auto_exposure(metering.log_mean, metering.maximum, value);
-}
-
-std::string ExposureChoice::text() const {
-  if (kind == Kind::ev100) return fmt::format("ev100 {:g}", value);
-  return value == 0 ? "auto" : fmt::format("auto {:+g}", value);
-}
-
 void PictureOptions::declare(Options& options) {
   options.option("--camera", &camera, "camera of the scene (default: the first)");
   options.option("--eye", &eye, "X,Y,Z in metres: look from here, with --target");
@@ -70,12 +51,10 @@ void PictureOptions::declare(Options& options) {
   options.option("--fov", &fov, "vertical field of view in degrees (default: the camera's)");
   options.option("--size", &size, "WIDTHxHEIGHT, or WIDTH at the camera's aspect (default: 1280)");
   options.option("--samples", &samples, "per pixel; 1 looks at pixel centres");
-  options.option("--exposure", &exposure,
-                 "auto, or stops brighter (+1) or darker (-1) than that (default: auto)");
-  options.option("--ev100", &ev100, "absolute exposure value at ISO 100; higher is darker");
-  options.option("--tone", &tone, "agx, drago, drago2006, reinhard, aces, neutral, linear (default: agx)");
+  tone.declare(options);
   options.option("--device", &device,
-                 "auto, cpu, gl (OpenGL); auto draws by OpenGL where there is a graphics device");
+                 "auto, cpu, gl (OpenGL), software (as hardware without shaders would: an 8-bit lightmap, "
+                 "tone mapped before the texture); auto draws by OpenGL where there is a graphics device");
   options.option(
       "--tier", &tier,
       "what OpenGL's textures may be: auto, full, half, unfiltered, byte; for trying lesser devices");
@@ -83,8 +62,7 @@ void PictureOptions::declare(Options& options) {
 
 void PictureOptions::apply(const Preset& preset) {
   if (camera.empty() && eye.empty()) camera = preset.camera;
-  if (exposure.empty() && ev100.empty()) exposure = preset.exposure;
-  if (tone.empty()) tone = preset.tone;
+  tone.apply(preset);
 }
 
 void PictureOptions::check() const {
@@ -98,24 +76,13 @@ void PictureOptions::check() const {
   if (samples < 1 || samples > kMaxSamples)
     throw UsageError("option '--samples'", fmt::format("{} samples", samples),
                      fmt::format("1 to {}", kMaxSamples));
-  if (!exposure.empty() && !ev100.empty()) throw UsageError({}, "--exposure and --ev100 exclude each other");
-  exposure_choice();
-  if (!tone.empty()) find_tone_mapper(tone);
-  if (device != "auto" && device != "cpu" && device != "gl")
-    throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu, gl");
+  tone.check();
+  if (device != "auto" && device != "cpu" && device != "gl" && device != "software")
+    throw UsageError("option '--device'", "unknown device '" + device + "'", "auto, cpu, gl, software");
   if (tier != "auto") {
     find_shader_tier(tier);
-    if (device == "cpu") throw UsageError({}, "--tier needs --device gl");
+    if (device == "cpu" || device == "software") throw UsageError({}, "--tier needs --device gl");
   }
-}
-
-ExposureChoice PictureOptions::exposure_choice() const {
-  if (!ev100.empty())
-    return {ExposureChoice::Kind::ev100, parse_stops(ev100, "--ev100", "a number, higher is darker"), true};
-  const bool automatic = exposure.empty() || exposure == "auto";
-  return {ExposureChoice::Kind::automatic,
-          automatic ? 0 : parse_stops(exposure, "--exposure", "auto, or stops such as +1 or -0.5"),
-          !exposure.empty()};
 }
 
 Camera PictureOptions::find_camera(const Scene& scene, const std::function<Camera()>& otherwise) const {

@@ -7,10 +7,8 @@
 #include <string>
 
 #include "app.h"
-#include "mix/mix.h"
-#include "mix/preset.h"
 #include "scene/lens.h"
-#include "tone/exposure.h"
+#include "tone_options.h"
 
 namespace sconce::app {
 
@@ -23,18 +21,9 @@ PictureSize parse_size(const std::string& text);
 /// `X,Y,Z` in metres. @throws UsageError naming `option`
 Vec3 parse_point(const std::string& text, const std::string& option);
 
-/// How values become exposed ones.
-struct ExposureChoice {
-  enum class Kind { automatic, ev100 } kind = Kind::automatic;
-  double value = 0;         ///< stops, or EV at ISO 100
-  bool explicitly = false;  ///< asked for, so that a linear picture is exposed too
-
-  Exposure resolve(const Metering& metering) const;
-  std::string text() const;
-};
-
 struct PictureOptions {
-  std::string camera, eye, target, size, exposure, ev100, tone, device = "auto", tier = "auto";
+  std::string camera, eye, target, size, device = "auto", tier = "auto";
+  ToneOptions tone;
   double fov = 0;
   int samples = 16;
 
@@ -43,7 +32,6 @@ struct PictureOptions {
   void apply(const Preset& preset);
   /// Everything that can be checked without the package. @throws UsageError
   void check() const;
-  ExposureChoice exposure_choice() const;
   /// @param otherwise  gives one where none is asked for and the scene has none
   Camera find_camera(const Scene& scene, const std::function<Camera()>& otherwise) const;
   PictureParams params(const Camera& camera) const;

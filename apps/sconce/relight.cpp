@@ -137,8 +137,8 @@ int run_relight(int argc, const char* const* argv) {
   check_output(output, {".png", ".exr"});
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
   const bool linear = lower(fs::path(output).extension().string()) == ".exr";
-  const ToneMapper& tone = find_tone_mapper(picture.tone.empty() ? "agx" : picture.tone);
-  const ExposureChoice choice = picture.exposure_choice();
+  const ToneMapper& tone = picture.tone.mapper();
+  const ExposureChoice choice = picture.tone.exposure_choice();
   const bool exposed = !linear || choice.explicitly;
 
   const ThreadLimit threads(options.threads);

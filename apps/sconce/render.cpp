@@ -65,7 +65,7 @@ int run_render(int argc, const char* const* argv) {
                  "OpenEXR of the share of each pixel that shows an emitter, for 'diff --mask'");
   if (const auto code = options.parse(argc, argv)) return *code;
 
-  const bool tone_given = !picture.tone.empty();
+  const bool tone_given = !picture.tone.curve.empty();
   const Preset preset = settings.preset();
   picture.apply(preset);
   picture.check();
@@ -74,8 +74,10 @@ int run_render(int argc, const char* const* argv) {
   if (!coverage.empty()) check_output(coverage, {".exr"});
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
   const bool linear = lower(fs::path(output).extension().string()) == ".exr";
-  const ToneMapper& tone = find_tone_mapper(picture.tone.empty() ? "agx" : picture.tone);
-  const ExposureChoice choice = picture.exposure_choice();
+  if (linear && picture.device == "software")
+    throw UsageError("option '--device'", "software draws no linear picture", "-o FILE.png");
+  const ToneMapper& tone = picture.tone.mapper();
+  const ExposureChoice choice = picture.tone.exposure_choice();
   const bool exposed = !linear || choice.explicitly;
 
   const ThreadLimit threads(options.threads);
@@ -86,7 +88,7 @@ int run_render(int argc, const char* const* argv) {
   {
     const Progress progress = make_progress(options);
     if (linear && tone_given && tone.name != "linear")
-      progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone + " is not applied");
+      progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone.curve + " is not applied");
     const Package package = settings.open(input);
     groups = package.manifest().groups;
     rendered = render(package, picture, settings, preset, exposed, progress);

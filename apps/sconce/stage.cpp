@@ -3,6 +3,8 @@
 
 #include "core/error.h"
 #include "gpu/way.h"
+#include "mix/tone_lightmap.h"
+#include "picture/fixed_function.h"
 #include "picture/render.h"
 #include "tone/apply.h"
 
@@ -26,9 +28,49 @@ class CpuStage : public Stage {
     return tone_map(linear_, exposure, mapper);
   }
 
+ protected:
+  const View& view() const { return view_; }
+
  private:
   View view_;
   Image linear_, coverage_;
+};
+
+/// The curve comes first here, so drawing waits for it.
+class SoftwareStage : public CpuStage {
+ public:
+  using CpuStage::CpuStage;
+  std::string device() const override { return "software"; }
+  void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
+            const PictureParams& params, const Progress& progress) override {
+    camera_ = camera, mix_ = mix, pages_ = pages, params_ = params, progress_ = progress;
+  }
+  Image coverage() const override {
+    Image coverage;
+    view().render(camera_, mix_, pages_, params_, progress_, &coverage);
+    return coverage;
+  }
+  Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const override {
+    const std::vector<Image8> lightmap = tone_lightmap(pages_, exposure, mapper);
+    Image8 out{params_.width, params_.height, 3, {}};
+    std::vector<float> sum;  // of codes, as a frame buffer that smooths edges adds them
+    for (int s = 0; s < params_.samples; ++s) {
+      const Image codes =
+          fixed_function(view().hits(camera_, params_, s, progress_), mix_, lightmap, exposure, mapper);
+      sum.resize(codes.data.size());
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += codes.data[i];
+    }
+    const float scale = 255.0f / static_cast<float>(params_.samples);
+    for (const float v : sum) out.data.push_back(static_cast<unsigned char>(v * scale + 0.5f));
+    return out;
+  }
+
+ private:
+  Camera camera_;
+  MixSpec mix_;
+  std::vector<Image> pages_;
+  PictureParams params_;
+  Progress progress_;
 };
 
 class GlStage : public Stage {
@@ -70,7 +112,7 @@ class GlStage : public Stage {
 /// Null where `device` leaves it to us and there is no graphics device: OpenGL in software is slower than
 /// rays.
 std::unique_ptr<gpu::Context> open_context(const std::string& device) {
-  if (device == "cpu") return nullptr;
+  if (device == "cpu" || device == "software") return nullptr;
   try {
     return std::make_unique<gpu::Context>(gpu::ContextParams{.hardware_only = device == "auto"});
   } catch (const Error&) {
@@ -85,6 +127,7 @@ std::unique_ptr<Stage> make_stage(const Package& package, const std::string& dev
                                   const std::string& tier) {
   if (auto context = open_context(device))
     return std::make_unique<GlStage>(package, std::move(context), tier);
+  if (device == "software") return std::make_unique<SoftwareStage>(package);
   return std::make_unique<CpuStage>(package);
 }
 

@@ -14,7 +14,7 @@ namespace sconce::app {
 class Stage {
  public:
   virtual ~Stage() = default;
-  virtual std::string device() const = 0;  ///< "cpu", or OpenGL's name of what draws
+  virtual std::string device() const = 0;  ///< "cpu", "software", or OpenGL's name of what draws
   virtual const Scene& scene() const = 0;
   /// One at eye height, for a scene without cameras.
   virtual Camera eye_height_camera(const Progress& progress) const = 0;
@@ -22,13 +22,14 @@ class Stage {
   /// @param pages  mix_pages() of the same mix; OpenGL mixes by itself
   virtual void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                     const PictureParams& params, const Progress& progress) = 0;
-  virtual Image linear() const = 0;    ///< cd/m2, before exposure
+  virtual Image linear() const = 0;    ///< cd/m2, before exposure @pre not "software"
   virtual Image coverage() const = 0;  ///< share of each pixel that shows an emitter or the sky
   virtual Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const = 0;
 };
 
 /// @param package  must outlive it
-/// @param device   cpu, gl, or auto: OpenGL where there is a graphics device
+/// @param device   cpu, gl, software (picture/fixed_function.h), or auto: OpenGL where there is a graphics
+/// device
 /// @param tier     of shader/composer.h, for OpenGL; "auto" = the best that the device has
 /// @throws Error when gl is asked for and there is no OpenGL
 std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,

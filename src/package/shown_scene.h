@@ -13,6 +13,10 @@ namespace sconce {
 struct LightmapSide {
   int page = -1;             ///< -1 = no light is kept for this side
   std::array<Vec2, 3> uv{};  ///< [0,1], in the order of the World triangle's vertices
+
+  Vec2 at(Vec2 barycentric) const {
+    return (1 - barycentric.x - barycentric.y) * uv[0] + barycentric.x * uv[1] + barycentric.y * uv[2];
+  }
 };
 
 /// Twins leave the scene and become the backs of the triangles they share.

@@ -6,8 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/sobol.h"
-#include "light/sky.h"
+#include "picture/seen.h"
 
 namespace sconce {
 
@@ -17,38 +16,16 @@ constexpr int kTile = 32;  // pixels
 
 /// Bilinear between texel centres, clamped at the page's edges.
 Rgb bilinear(const Image& page, Vec2 uv) {
-  const auto place = [](float t, int size, int* low, int* high) {
-    const float at = t * static_cast<float>(size) - 0.5f;
-    const float inside = at > 0 ? std::min(at, static_cast<float>(size - 1)) : 0.0f;
-    *low = static_cast<int>(inside);
-    *high = std::min(*low + 1, size - 1);
-    return inside - static_cast<float>(*low);
-  };
-  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-  const float wx = place(uv.x, page.width, &x0, &x1), wy = place(uv.y, page.height, &y0, &y1);
-  const Rgb top = (1 - wx) * page.rgb_at(x0, y0) + wx * page.rgb_at(x1, y0);
-  const Rgb bottom = (1 - wx) * page.rgb_at(x0, y1) + wx * page.rgb_at(x1, y1);
-  return (1 - wy) * top + wy * bottom;
-}
-
-Rgb sky_radiance(const Light& light, const Vec3& direction) {
-  SkyLamp lamp;
-  lamp.scale = light.intensity;
-  lamp.to_local = glm::transpose(Mat3(light.frame));
-  const Image& image = std::get<SkyLight>(light.shape).image;
-  if (!image.data.empty()) lamp.image = &image;
-  return radiance(lamp, direction);
-}
-
-Rgb weight_of(const MixSpec& mix, Id<LightGroup> group) {
-  return group.valid() ? mix.weights[group.value] : Rgb(1);
+  const TexelPlace x(uv.x, page.width), y(uv.y, page.height);
+  const int x1 = std::min(x.low + 1, page.width - 1), y1 = std::min(y.low + 1, page.height - 1);
+  const Rgb top = (1 - x.fraction) * page.rgb_at(x.low, y.low) + x.fraction * page.rgb_at(x1, y.low);
+  const Rgb bottom = (1 - x.fraction) * page.rgb_at(x.low, y1) + x.fraction * page.rgb_at(x1, y1);
+  return (1 - y.fraction) * top + y.fraction * bottom;
 }
 
 Rgb illuminance(const LightmapSide& side, Vec2 barycentric, const std::vector<Image>& pages) {
   if (side.page < 0) return Rgb(0);
-  const Vec2 uv = (1 - barycentric.x - barycentric.y) * side.uv[0] + barycentric.x * side.uv[1] +
-                  barycentric.y * side.uv[2];
-  return bilinear(pages[static_cast<std::size_t>(side.page)], uv);
+  return bilinear(pages[static_cast<std::size_t>(side.page)], side.at(barycentric));
 }
 
 }  // namespace
@@ -57,24 +34,18 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
                       const std::function<Rgb(const SurfacePoint&)>& added) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
-  if (!hit) {
-    for (const Light& light : scene().lights) {
-      if (!std::holds_alternative<SkyLight>(light.shape)) continue;
-      const Rgb sky = sky_radiance(light, ray.direction);
-      seen.emitter = seen.emitter || !sky.is_black();
-      seen.radiance += weight_of(mix, light.group) * sky;
-    }
-    return seen;
+  Shade surface;
+  if (hit) {
+    surface = shade(scene(), world(), hit.triangle, hit.barycentric);
+    Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
+    const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
+    if (lit && added) light += added(surface_point(world(), hit));
+    seen.radiance = surface.receiver_albedo() * light * kInvPi;
   }
-  const Shade surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-  Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
-  const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
-  if (lit && added) light += added(surface_point(world(), hit));
-  seen.radiance = surface.receiver_albedo() * light * kInvPi;
-  if (lit) {
-    seen.emitter = !surface.emission.is_black();
-    seen.radiance += weight_of(mix, scene()[world().instances[hit.triangle]].group) * surface.emission;
-  }
+  for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
+    seen.emitter = seen.emitter || !shine.is_black();
+    seen.radiance += weight_of(mix, group) * shine;
+  });
   return seen;
 }
 
@@ -91,15 +62,12 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
   const auto tiles = static_cast<std::size_t>(across) * static_cast<std::size_t>(down);
   const float share = 1.0f / static_cast<float>(params.samples);
   const auto pixel = [&](int x, int y) {
-    const auto id = static_cast<uint32_t>(y) * static_cast<uint32_t>(params.width) + static_cast<uint32_t>(x);
     Rgb sum;
     int emitters = 0;
     for (int s = 0; s < params.samples; ++s) {
-      const auto sample = static_cast<uint32_t>(s);
-      const Vec2 inside = params.samples == 1 ? Vec2(0.5f) : Sampler(params.seed, id, sample).next();
       std::function<Rgb(const SurfacePoint&)> here;
-      if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, sample); };
-      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages, here);
+      if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, static_cast<uint32_t>(s)); };
+      const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, mix, pages, here);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

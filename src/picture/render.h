@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "mix/mix.h"
 #include "package/shown_scene.h"
+#include "picture/hits.h"
 #include "scene/lens.h"
 #include "trace/tracer.h"
 
@@ -36,6 +37,10 @@ class View {
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
                const AddedLight& added = {}) const;
+  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move.
+  /// @throws as render()
+  CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
+                  const Progress& progress = {}) const;
 
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
   const World& world() const { return shown_.world; }
