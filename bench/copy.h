@@ -23,7 +23,7 @@ double seconds_of(const Work& work) {
 /// of some rounds.
 inline double copy_bandwidth() {
   static const double measured = [] {
-    constexpr std::size_t kChunk = 1 << 18, kChunks = 256;
+    constexpr std::size_t kChunk = 1 << 18, kChunks = 1024;  // larger than caches of hundreds of megabytes
     const std::vector<char> from(kChunk * kChunks, 1);
     std::vector<char> to(from.size());
     double best = 0;

@@ -84,21 +84,24 @@ const std::vector<Image>& Mixer::mix(const MixSpec& mix) {
 
 void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<std::vector<Rgb>>& weights,
                 bool clear) {
-  constexpr int kBand = 4;  // rows: the sum stays in the cache while textures stream by
+  constexpr int kTexels = 2048;  // of a band: its sum stays in the nearest cache while textures stream by
   bytes_read_ = 0;
   for (const Texture* texture : textures)
     for (const EncodedImage& page : texture->pages) bytes_read_ += page.data.size();
   for (std::size_t page = 0; page < sum_.size(); ++page) {
     Image& sum = sum_[page];
     const std::size_t row = 3 * static_cast<std::size_t>(sum.width);
-    parallel_for(static_cast<std::size_t>((sum.height + kBand - 1) / kBand), 4, [&](std::size_t band) {
-      const int first = static_cast<int>(band) * kBand, rows = std::min(kBand, sum.height - first);
-      float* to = &sum.data[static_cast<std::size_t>(first) * row];
-      if (clear) std::fill_n(to, row * static_cast<std::size_t>(rows), 0.0f);
-      for (std::size_t i = 0; i < textures.size(); ++i)
-        add_weighted(textures[i]->tables, textures[i]->pages[page], first, rows, weights[i],
-                     textures[i]->layout.encoding.luminance, to);
-    });
+    const int band_rows = std::max(1, kTexels / sum.width);
+    parallel_for(static_cast<std::size_t>((sum.height + band_rows - 1) / band_rows), 16,
+                 [&](std::size_t band) {
+                   const int first = static_cast<int>(band) * band_rows,
+                             rows = std::min(band_rows, sum.height - first);
+                   float* to = &sum.data[static_cast<std::size_t>(first) * row];
+                   if (clear) std::fill_n(to, row * static_cast<std::size_t>(rows), 0.0f);
+                   for (std::size_t i = 0; i < textures.size(); ++i)
+                     add_weighted(textures[i]->tables, textures[i]->pages[page], first, rows, weights[i],
+                                  textures[i]->layout.encoding.luminance, to);
+                 });
   }
 }
 
