@@ -44,16 +44,24 @@ Rgb weight_of(const MixSpec& mix, Id<LightGroup> group) {
   return group.valid() ? mix.weights[group.value] : Rgb(1);
 }
 
-Rgb illuminance(const LightmapSide& side, Vec2 barycentric, const std::vector<Image>& pages) {
-  if (side.page < 0) return Rgb(0);
-  const Vec2 uv = (1 - barycentric.x - barycentric.y) * side.uv[0] + barycentric.x * side.uv[1] +
-                  barycentric.y * side.uv[2];
-  return bilinear(pages[static_cast<std::size_t>(side.page)], uv);
-}
-
 }  // namespace
 
-View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {
+  const LightmapSide& place = side(hit.triangle, hit.back);
+  if (place.page < 0) return Rgb(0);
+  const Vec2 b = hit.barycentric;
+  const Vec2 uv = (1 - b.x - b.y) * place.uv[0] + b.x * place.uv[1] + b.y * place.uv[2];
+  const auto page = static_cast<std::size_t>(place.page);
+  Rgb e = bilinear(mix.pages[page], uv);
+  if (mix.components.empty()) return e;
+  const Vec3 offset = (hit.back ? -1.0f : 1.0f) * normal_offset(scene(), world(), hit.triangle, b);
+  if (offset == Vec3(0)) return e;
+  for (int axis = 0; axis < 3; ++axis)
+    e += offset[axis] * bilinear(mix.components[3 * page + static_cast<std::size_t>(axis)], uv);
+  return {std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)};
+}
+
+View::Seen View::look(const Ray& ray, const Mixed& mix,
                       const std::function<Rgb(const SurfacePoint&)>& added) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
@@ -62,27 +70,30 @@ View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Imag
       if (!std::holds_alternative<SkyLight>(light.shape)) continue;
       const Rgb sky = sky_radiance(light, ray.direction);
       seen.emitter = seen.emitter || !sky.is_black();
-      seen.radiance += weight_of(mix, light.group) * sky;
+      seen.radiance += weight_of(mix.spec, light.group) * sky;
     }
     return seen;
   }
   const Shade surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-  Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
+  Rgb light = illuminance(hit, mix);
   const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
   if (lit && added) light += added(surface_point(world(), hit));
   seen.radiance = surface.receiver_albedo() * light * kInvPi;
   if (lit) {
     seen.emitter = !surface.emission.is_black();
-    seen.radiance += weight_of(mix, scene()[world().instances[hit.triangle]].group) * surface.emission;
+    seen.radiance += weight_of(mix.spec, scene()[world().instances[hit.triangle]].group) * surface.emission;
   }
   return seen;
 }
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                    const PictureParams& params, const Progress& progress, Image* coverage,
-                   const AddedLight& added) const {
+                   const AddedLight& added, const std::vector<Image>& components) const {
   params.check();
   check_pages(package_->manifest(), mix, pages);
+  if (!components.empty() && components.size() != 3 * pages.size())
+    throw Error({}, "the mix does not belong to this package");
+  const Mixed mixed{mix, pages, components};
   const Lens lens(camera, params);
   Image picture = Image::rgb(params.width, params.height);
   if (coverage != nullptr) *coverage = Image(params.width, params.height, {"coverage"});
@@ -99,7 +110,7 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
       const Vec2 inside = params.samples == 1 ? Vec2(0.5f) : Sampler(params.seed, id, sample).next();
       std::function<Rgb(const SurfacePoint&)> here;
       if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, sample); };
-      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mix, pages, here);
+      const Seen seen = look({lens.eye(), lens.direction(Vec2(x, y) + inside)}, mixed, here);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }
