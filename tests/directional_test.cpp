@@ -186,7 +186,7 @@ TEST_F(Directional, MappedTileLooksLikeTheTiltedOne) {
     PictureParams params;
     params.width = params.height = 4;
     const Image picture = view.render(view.camera("main"), mix, mix_pages(package, mix), params, {}, nullptr,
-                                      mix_components(package, mix));
+                                      {}, mix_components(package, mix));
     return picture.rgb_at(2, 2).g;
   };
   const float truth = radiance(false, Basis::flat), flat = radiance(true, Basis::flat),

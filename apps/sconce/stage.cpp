@@ -20,7 +20,7 @@ class CpuStage : public Stage {
             const PictureParams& params, const Progress& progress) override {
     std::vector<Image> components;
     if (view_.sees_normal_maps()) components = mix_components(*package_, mix);
-    linear_ = view_.render(camera, mix, pages, params, progress, &coverage_, components);
+    linear_ = view_.render(camera, mix, pages, params, progress, &coverage_, {}, components);
   }
   Image linear() const override { return linear_; }
   Image coverage() const override { return coverage_; }
