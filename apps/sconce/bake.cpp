@@ -44,7 +44,7 @@ Shard parse_shard(const std::string& text) {
 
 /// Options as they are given; they outlive their declarations, which tell where values came from.
 struct Given {
-  std::string scene, output, shard, quality = "normal";
+  std::string scene, output, shard, quality = "normal", basis = "flat";
   int samples = 0, bounces = -1, seed = 1, page = 0;
   double density = 0, noise = 0, photons = 0;
   bool direct_estimate = false;
@@ -85,7 +85,7 @@ int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const R
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
   int samples = samples_within(std::max(0.0, seconds) * ranks.count, solver, bake.receivers,
-                               bake.scene.groups.size(), now);
+                               bake.scene.groups.size() * coefficients(bake.job.params.basis), now);
   if (ranks.count > 1)
     for (const std::string& other : ranks.allgather(std::to_string(samples)))
       samples = std::min(samples, std::stoi(other));
@@ -159,7 +159,7 @@ int execute(const Request& request, const Options& options, RankSession& session
 
 /// @return exit code when nothing is left to do
 std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
-  auto& [scene, output, shard, quality, samples, bounces, seed, page, density, noise, photons,
+  auto& [scene, output, shard, quality, basis, samples, bounces, seed, page, density, noise, photons,
          direct_estimate, denoise, time, max_error] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
@@ -181,6 +181,9 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
                  "photon solver: emitted by all lamps together (default: 4 per texel, 0.5 to 4 M)");
   options.flag("--direct-estimate", &direct_estimate,
                "photon solver: texels show the map itself, no final gather");
+  options.option("--basis", &basis,
+                 "flat, or sh1: layers also hold how light changes with the normal, so that normal maps are "
+                 "seen (4 x the size)");
   options.option(
       "--encoding", &job.encoding,
       "f32, f16, exp8, rgbe8, srgbe8, multi8, bc6h, lum:ENCODING (luminance only, four groups to a "
@@ -233,6 +236,7 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   job.denoise = denoise == "on";
   job.params.samples = samples > 0 ? samples : samples_of(quality);
   job.params.bounces = bounces;
+  job.params.basis = find_basis(basis);
   job.params.noise = noise;
   job.params.photons = static_cast<std::size_t>(photons);
   job.params.final_gather = !direct_estimate;
@@ -241,6 +245,12 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   job.atlas.page_size = density > 0 ? 0 : page > 0 ? page : 1024;
   parse_grouping(job.grouping);
   const bool runs_program = find_solver(job.solver).runs_program;
+  if (job.params.basis != Basis::flat && (runs_program || direct_estimate))
+    throw UsageError("--basis",
+                     basis + " cannot stand beside " +
+                         (runs_program ? "--solver " + job.solver : std::string("--direct-estimate")) +
+                         ", which knows no directions",
+                     "flat");
   if (runs_program && noise > 0) throw UsageError("--noise", "cannot stand beside --solver " + job.solver);
   if (runs_program && !shard.empty())
     throw UsageError("--shard", "cannot stand beside --solver " + job.solver + ", which bakes whole pages");

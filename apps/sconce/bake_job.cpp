@@ -31,7 +31,7 @@ Scene load(const BakeJob& job, const Progress& progress) {
 /// Of all options that a bake's records depend on but those in made_with().
 std::string how_hash(const BakeJob& job) {
   ContentHash hash;
-  hash.text(SCONCE_VERSION).text(job.solver).text("flat");
+  hash.text(SCONCE_VERSION).text(job.solver).text(basis_row(job.params.basis).name);
   hash.value(job.params.seed)
       .value(job.params.bounces)
       .value(job.params.cloud)
@@ -52,13 +52,21 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
 }
 
 /// The encoding of each group by `--encoding f16,ceiling=lum:f16`.
-std::vector<std::string> group_encodings(const std::string& text, const Scene& scene) {
+std::vector<std::string> group_encodings(const std::string& text, Basis basis, const Scene& scene) {
   std::vector<std::string> result(scene.groups.size(), "f16");
   for (const std::string& part : split(text, ',')) {
     const std::size_t equals = part.rfind('=');
     const std::string pattern = equals == std::string::npos ? "*" : part.substr(0, equals);
     std::string name = equals == std::string::npos ? part : part.substr(equals + 1);
-    if (name != kAutoEncoding) name = parse_encoding(name).name();
+    if (name != kAutoEncoding) {
+      const EncodingChoice choice = parse_encoding(name);
+      if (basis != Basis::flat && !signed_encoding(choice))
+        throw UsageError(
+            "--encoding",
+            choice.name() + " cannot hold the signed basis " + std::string(basis_row(basis).name),
+            "f32, f16, srgbe8, auto");
+      name = choice.name();
+    }
     bool found = false;
     for (std::size_t g = 0; g < result.size(); ++g)
       if (glob_match(pattern, scene.groups[g].name)) {
@@ -103,6 +111,7 @@ std::string BakeJob::to_json() const {
                                {"samples", params.samples},
                                {"bounces", params.bounces},
                                {"seed", params.seed},
+                               {"basis", basis_row(params.basis).name},
                                {"noise", params.noise},
                                {"cloud", params.cloud},
                                {"photons", params.photons},
@@ -127,6 +136,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("samples").get_to(job.params.samples);
     json.at("bounces").get_to(job.params.bounces);
     json.at("seed").get_to(job.params.seed);
+    job.params.basis = find_basis(json.at("basis").get<std::string>());
     json.at("noise").get_to(job.params.noise);
     json.at("cloud").get_to(job.params.cloud);
     json.at("photons").get_to(job.params.photons);
@@ -152,7 +162,7 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
       scene(load(job, progress)),
       world(make_world(scene)),
       inputs(hash_inputs(job, scene, world)),
-      encodings(group_encodings(job.encoding, scene)),
+      encodings(group_encodings(job.encoding, job.params.basis, scene)),
       plan(inputs, encodings, job.max_error, before),
       wanted(plan.wanted()),
       tracer(scene, world),
@@ -170,7 +180,7 @@ void PreparedBake::set_samples(int samples) {
 }
 
 BakeHeader PreparedBake::header() const {
-  const std::size_t groups = plan.count(true);
+  const std::size_t groups = plan.count(true), layers = groups * coefficients(job.params.basis);
   std::string records = hash;
   // Records of some groups only, on texels laid out for an earlier bake, are no part of a whole bake.
   if (groups != scene.groups.size())
@@ -179,7 +189,7 @@ BakeHeader PreparedBake::header() const {
                   .span(std::span<const uint8_t>(wanted))
                   .text(hash_hex(pack_layout(atlas)))
                   .hex();
-  return {records,      isa(), static_cast<uint32_t>(groups), receivers.size(), TexelReceivers::kTile,
+  return {records,      isa(), static_cast<uint32_t>(layers), receivers.size(), TexelReceivers::kTile,
           job.to_json()};
 }
 

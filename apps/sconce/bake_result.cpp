@@ -11,8 +11,8 @@ namespace sconce::app {
 
 namespace {
 
-/// The solver's own values of all groups at all receivers: from the states, or from the package that they are
-/// kept from.
+/// The solver's own values at all receivers, [coefficient * groups + group]: from the states, or from the
+/// package that they are kept from.
 std::vector<std::vector<GroupValue>> own_values(const PreparedBake& bake, std::span<const BakeState> states,
                                                 const Progress& progress) {
   const Package* before = bake.plan.before();
@@ -22,28 +22,32 @@ std::vector<std::vector<GroupValue>> own_values(const PreparedBake& bake, std::s
   for (int p = 0; p < bake.atlas.pages && bake.plan.count(false) > 0; ++p) noise.push_back(before->noise(p));
   std::vector<std::vector<GroupValue>> values;
   uint32_t solved = 0;
-  for (std::size_t g = 0; g < bake.scene.groups.size(); ++g) {
+  const std::size_t groups = bake.scene.groups.size();
+  for (std::size_t l = 0; l < groups * coefficients(bake.job.params.basis); ++l) {
     progress.check();
-    const auto kept = bake.plan.kept(g);
+    const std::size_t c = l / groups;
+    const auto kept = bake.plan.kept(l % groups);
     if (!kept) {
       values.push_back(collect_values(states, bake.job.params, solved++));
       continue;
     }
     std::vector<Image> pages;
-    for (int p = 0; p < bake.atlas.pages; ++p) pages.push_back(before->layer(*kept, p));
+    for (int p = 0; p < bake.atlas.pages; ++p) pages.push_back(before->layer(*kept, p, c));
     std::vector<GroupValue>& all = values.emplace_back(bake.receivers.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::size_t page = bake.receivers.texel(i) / page_texels,
                         at = bake.receivers.texel(i) % page_texels;
       const float* rgb = &pages[page].data[3 * at];
       all[i].illuminance = Rgb(rgb[0], rgb[1], rgb[2]);
-      all[i].error = noise[page].data[at * noise[page].stride() + *kept] * luminance(all[i].illuminance);
+      // Of further coefficients no errors are kept; nothing reads them.
+      if (c == 0)
+        all[i].error = noise[page].data[at * noise[page].stride() + *kept] * luminance(all[i].illuminance);
     }
   }
   return values;
 }
 
-/// All groups' values as images. @return means and noise; the pages are moved into `layers`
+/// All values as images. @return means and noise; the pages are moved into `layers`
 std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vector<GroupValue>> values,
                             std::span<const float> areas, std::vector<std::vector<Image>>& layers,
                             std::vector<Image>& noise, const Progress& progress) {
@@ -56,7 +60,7 @@ std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vecto
     progress.at("layers", g, values.size());
     progress.check();
     Layer& layer = result.emplace_back(assemble_layer(values[g], bake.atlas, bake.receivers, areas));
-    for (std::size_t p = 0; p < layer.noise.size(); ++p)
+    for (std::size_t p = 0; p < layer.noise.size() && g < channels.size(); ++p)
       for (std::size_t i = 0; i < layer.noise[p].pixels(); ++i)
         noise[p].data[i * channels.size() + g] = layer.noise[p].data[i];
     layer.noise.clear();
@@ -105,6 +109,7 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
   manifest.width = atlas.width, manifest.height = atlas.height, manifest.pages = atlas.pages;
   manifest.density = static_cast<double>(atlas.density);
   manifest.lightmap_set = baked.lightmap_set;
+  manifest.basis = bake.job.params.basis;
   manifest.instance_pages = baked.pages;
   for (const Id<Instance> twin : baked.twins)
     manifest.instance_twins.push_back(twin.valid() ? static_cast<int>(twin.value) : -1);
@@ -127,7 +132,8 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
   std::vector<std::vector<GroupValue>> values = own_values(bake, states, progress);
   if (bake.job.denoise) {
     assemble(bake, values, areas, contents.raw, contents.raw_noise, progress);
-    values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress);
+    values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress,
+                     bake.scene.groups.size());
   }
   const std::vector<Layer> layers = assemble(bake, values, areas, contents.layers, contents.noise, progress);
   const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);

@@ -44,6 +44,11 @@ void add_groups(const Manifest& m, InfoReport& report) {
   if (!m.groups.empty()) report.text += table.text();
 }
 
+/// The group's name, and for components of g which.
+std::string layer_label(const Manifest& m, const LayerInfo& layer) {
+  return m.groups.at(layer.group).name + std::string(coefficient_suffix(layer.coefficient));
+}
+
 /// Where an encoding loses what eyes see, and what it is good for: system A's advice, with this layer's
 /// figures.
 std::vector<std::string> encoding_advice(const Manifest& m) {
@@ -51,7 +56,7 @@ std::vector<std::string> encoding_advice(const Manifest& m) {
   std::vector<std::string> lines;
   for (const LayerInfo& layer : m.layers) {
     const EncodingChoice choice = parse_encoding(layer.encoding);
-    const std::string& group = m.groups.at(layer.group).name;
+    const std::string group = layer_label(m, layer);
     if (layer.error.relative > kSeen && choice.encoding->type == TexelType::bc6h)
       lines.push_back(fmt::format("bc6h is for smooth layers; '{}' page {} loses {:.1f} %", group, layer.page,
                                   100 * layer.error.relative));
@@ -85,11 +90,12 @@ void add_layers(const Manifest& m, InfoReport& report) {
     const double memory = parse_encoding(layer.encoding).bytes_per_texel() * m.width * m.height;
     texel_bytes += memory;
     const std::string& group = m.groups.at(layer.group).name;
-    table.add({group, std::to_string(layer.page), layer.encoding,
+    table.add({layer_label(m, layer), std::to_string(layer.page), layer.encoding,
                fmt::format("{:.2f} %", 100 * layer.error.relative), fmt::format("{:.1f}", layer.error.chroma),
                megabytes(memory), megabytes(static_cast<double>(layer.bytes)), "layers/" + layer.file});
     layers.push_back({{"group", group},
                       {"page", layer.page},
+                      {"coefficient", layer.coefficient},
                       {"encoding", layer.encoding},
                       {"error", layer.error.relative},
                       {"chroma_error", layer.error.chroma},
@@ -135,12 +141,14 @@ InfoReport package_info(const std::filesystem::path& path, bool options) {
       {"generator", m.generator},
       {"scene", m.scene_name},
       {"atlas", {{"width", m.width}, {"height", m.height}, {"pages", m.pages}, {"density", m.density}}},
+      {"basis", basis_row(m.basis).name},
       {"cameras", cameras}};
   report.text = fmt::format("package       {}, format {}, by {}\n", path.string(), m.version, m.generator);
   report.text += fmt::format("scene         {}\n", m.scene_name);
   report.text += fmt::format("atlas         {} x {}, {} {}", m.width, m.height, m.pages,
                              m.pages == 1 ? "page" : "pages");
   report.text += m.density > 0 ? fmt::format(", {:.4g} texels per metre\n", m.density) : "\n";
+  report.text += fmt::format("basis         {}: {}\n", basis_row(m.basis).name, basis_row(m.basis).doc);
   report.text += fmt::format("cameras       {}\n", cameras.empty() ? "none" : some_names(cameras, 8));
   add_groups(m, report);
   add_layers(m, report);

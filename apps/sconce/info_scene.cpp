@@ -98,12 +98,17 @@ InfoReport scene_info(const std::filesystem::path& path, const std::string& grou
                  {"materials", scene.materials.size()},
                  {"textures", scene.textures.size()},
                  {"bounds", {{"min", json_of(world.bounds.lo)}, {"max", json_of(world.bounds.hi)}}}};
+  const auto mapped = std::count_if(scene.materials.begin(), scene.materials.end(),
+                                    [](const Material& m) { return m.normal_texture.texture.valid(); });
+  report.json["normal_maps"] = mapped;
   report.text = fmt::format("scene         {}\n", path.filename().string());
   report.text += fmt::format("geometry      {} triangles in {} instances of {} meshes\n",
                              grouped(static_cast<double>(instanced_triangles(scene))), scene.instances.size(),
                              scene.meshes.size());
   report.text +=
       fmt::format("surfaces      {} materials, {} textures\n", scene.materials.size(), scene.textures.size());
+  if (mapped > 0)
+    report.text += fmt::format("normal maps   of {} materials; `bake --basis sh1` makes them seen\n", mapped);
   report.text += fmt::format("size          {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f})\n",
                              size.x, size.y, size.z, world.bounds.lo.x, world.bounds.lo.y, world.bounds.lo.z);
   add_cameras(scene, report);

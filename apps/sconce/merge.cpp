@@ -32,7 +32,7 @@ int run_merge(int argc, const char* const* argv) {
                   first.isa);
   }
   const PreparedBake bake(BakeJob::from_json(states.front().header().job, shards.front()), progress);
-  if (states.front().header().groups != bake.scene.groups.size())
+  if (states.front().header().layers != bake.scene.groups.size() * coefficients(bake.job.params.basis))
     throw Error(shards.front(), "holds only some of the light groups: `bake --resume` goes on with it",
                 "what `bake --shard` wrote");
   if (bake.hash != states.front().header().hash)

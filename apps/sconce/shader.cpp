@@ -41,13 +41,14 @@ std::string internal_format(const EncodingChoice& choice) {
 /// Whose light a texture holds, by file and channel.
 Json texture_json(const Package& package, const LayerTexture& texture, int page) {
   const Manifest& m = package.manifest();
-  const LayerInfo& info = package.layer_info(texture.groups.front(), page);
+  const LayerInfo& info = package.layer_info(texture.groups.front(), page, texture.coefficient);
   Json groups = Json::array();
   for (const std::size_t g : texture.groups) groups.push_back(m.groups[g].name);
   return {{"file", "layers/" + info.file},
           {"encoding", info.encoding},
           {"groups", groups},
-          {"channels", texture.channels(layer_names(m.groups))},
+          {"coefficient", texture.coefficient},
+          {"channels", texture.channels(layer_names(m.groups, texture.coefficient))},
           {"gain", texture.gain[static_cast<std::size_t>(page)]}};
 }
 
@@ -78,6 +79,7 @@ Json uniforms_json(const Package& package, const ShaderSpec& spec) {
   Json weights = Json::array();
   for (const LayerTexture& texture : spec.textures)
     for (const std::size_t g : texture.groups) {
+      if (texture.coefficient > 0) continue;
       const GroupInfo& group = package.manifest().groups[g];
       const Rgb c = texture.encoding.luminance ? group.color : Rgb(1);
       weights.push_back({{"index", g}, {"group", group.name}, {"times", {c.r, c.g, c.b}}});
@@ -141,7 +143,10 @@ int run_shader(int argc, const char* const* argv) {
   spec.tone = tone == "none" ? nullptr : &find_tone_mapper(tone);
   spec.units = units;
   const Package package = Package::open(input);
-  spec.textures = package.textures();
+  // An atlas is mixed for one coefficient; E is what everybody wants.
+  const bool by_texel = spec.form == Form::atlas || spec.form == Form::compute;
+  for (std::size_t c = 0; c < (by_texel ? 1 : coefficients(package.manifest().basis)); ++c)
+    for (LayerTexture& texture : package.textures(c)) spec.textures.push_back(std::move(texture));
   spec.groups = package.manifest().groups.size();
   spec.pages = package.manifest().pages;
   const ComposedShader shader = compose(spec);
@@ -153,6 +158,7 @@ int run_shader(int argc, const char* const* argv) {
       {"atlas",
        {{"width", package.manifest().width}, {"height", package.manifest().height}, {"pages", spec.pages}}},
       {"unit", "lux, linear Rec. 709"},
+      {"basis", basis_row(package.manifest().basis).name},
       {"samplers", samplers_json(package, spec, shader)},
       {"uniforms", uniforms_json(package, spec)}};
   const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -14,13 +14,15 @@ namespace {
 
 class CpuStage : public Stage {
  public:
-  explicit CpuStage(const Package& package) : view_(package) {}
+  explicit CpuStage(const Package& package) : package_(&package), view_(package) {}
   std::string device() const override { return "cpu"; }
   const Scene& scene() const override { return view_.scene(); }
   Camera eye_height_camera(const Progress& progress) const override { return view_.camera("", progress); }
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
-    linear_ = view_.render(camera, mix, pages, params, progress, &coverage_);
+    std::vector<Image> components;
+    if (view_.sees_normal_maps()) components = mix_components(*package_, mix);
+    linear_ = view_.render(camera, mix, pages, params, progress, &coverage_, {}, components);
   }
   Image linear() const override { return linear_; }
   Image coverage() const override { return coverage_; }
@@ -32,6 +34,7 @@ class CpuStage : public Stage {
   const View& view() const { return view_; }
 
  private:
+  const Package* package_;
   View view_;
   Image linear_, coverage_;
 };
@@ -91,6 +94,8 @@ class GlStage : public Stage {
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
     check_pages(package_->manifest(), mix, pages);
+    if (package_->manifest().basis == Basis::sh1 && scene().has_normal_maps())
+      progress.warn("OpenGL shows surfaces without their normal maps; --device cpu sees them");
     const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
     view_.draw(camera, mix.weights, *light, params, progress);
   }
@@ -125,9 +130,11 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device) {
 
 std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
                                   const std::string& tier) {
-  if (auto context = open_context(device))
-    return std::make_unique<GlStage>(package, std::move(context), tier);
   if (device == "software") return std::make_unique<SoftwareStage>(package);
+  // Normal maps are seen by rays only.
+  const bool rays = device == "auto" && package.manifest().basis != Basis::flat;
+  if (auto context = open_context(rays ? "cpu" : device))
+    return std::make_unique<GlStage>(package, std::move(context), tier);
   return std::make_unique<CpuStage>(package);
 }
 

@@ -35,6 +35,10 @@ float chroma_distance(const Rgb& a, const Rgb& b, float scale) {
   return std::hypot(p[0] - q[0], p[1] - q[1]);
 }
 
+Rgb rgb(const Image& image, std::size_t i) {
+  return {image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]};
+}
+
 float percentile(std::vector<float>& values) {
   if (values.empty()) return 0;
   const auto at =
@@ -77,8 +81,7 @@ EncodingError measure_encoding(const Image& original, const Image& decoded, cons
   std::vector<float> relative, distance, boosted;
   for (std::size_t i = 0; i < original.pixels(); ++i) {
     if (!(receivers.data[4 * i + 3] > 0)) continue;
-    const Rgb a(original.data[3 * i], original.data[3 * i + 1], original.data[3 * i + 2]);
-    const Rgb b(decoded.data[3 * i], decoded.data[3 * i + 1], decoded.data[3 * i + 2]);
+    const Rgb a = rgb(original, i), b = rgb(decoded, i);
     const float size = std::max(luminance(a), floor);
     relative.push_back(size > 0 ? std::abs(luminance(b) - luminance(a)) / size : 0.0f);
     distance.push_back(chroma_distance(a, b, grey));
@@ -87,18 +90,33 @@ EncodingError measure_encoding(const Image& original, const Image& decoded, cons
   return {percentile(relative), std::max(percentile(distance), percentile(boosted))};
 }
 
-EncodingChoice choose_encoding(std::span<const Image> pages, std::span<const Image> receivers, double mean,
-                               double most) {
+EncodingError measure_component(const Image& original, const Image& decoded, const Image& illuminance,
+                                const Image& receivers, double mean) {
+  std::vector<float> relative;
+  for (std::size_t i = 0; i < original.pixels(); ++i) {
+    if (!(receivers.data[4 * i + 3] > 0)) continue;
+    const float size = std::max(luminance(rgb(illuminance, i)), static_cast<float>(kFloor * mean));
+    relative.push_back(size > 0 ? std::abs(luminance(rgb(decoded, i) - rgb(original, i))) / size : 0.0f);
+  }
+  return {percentile(relative), 0};
+}
+
+EncodingChoice choose_encoding(std::span<const std::span<const Image>> coefficients,
+                               std::span<const Image> receivers, double mean, double most) {
   std::vector<EncodingChoice> choices;
-  for (const Encoding& e : encodings()) choices.push_back({&e, false});
+  for (const Encoding& e : encodings())
+    if (e.is_signed || coefficients.size() == 1) choices.push_back({&e, false});
   std::stable_sort(choices.begin(), choices.end(),
                    [](const auto& a, const auto& b) { return a.bytes_per_texel() < b.bytes_per_texel(); });
   const auto fits = [&](const EncodingChoice& choice) {
-    for (std::size_t page = 0; page < pages.size(); ++page) {
-      const EncodingError error =
-          measure_encoding(pages[page], decode(encode(pages[page], *choice.encoding)), receivers[page], mean);
-      if (error.relative > most || error.chroma > 100 * most) return false;
-    }
+    for (std::size_t c = 0; c < coefficients.size(); ++c)
+      for (std::size_t page = 0; page < receivers.size(); ++page) {
+        const Image &original = coefficients[c][page], &e = coefficients[0][page];
+        const Image decoded = decode(encode(original, *choice.encoding));
+        const EncodingError error = c == 0 ? measure_encoding(original, decoded, receivers[page], mean)
+                                           : measure_component(original, decoded, e, receivers[page], mean);
+        if (error.relative > most || error.chroma > 100 * most) return false;
+      }
     return true;
   };
   return *std::find_if(choices.begin(), std::prev(choices.end()), fits);

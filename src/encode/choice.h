@@ -24,6 +24,11 @@ struct EncodingChoice {
 /// @throws UsageError naming the choices, or that the encoding's channels share bits
 EncodingChoice parse_encoding(std::string_view text);
 
+/// Whether it may hold the signed coefficients of a basis.
+inline bool signed_encoding(const EncodingChoice& choice) {
+  return choice.encoding->is_signed && !choice.luminance;
+}
+
 /// What an encoding does to a layer (contract.md, "Encoding error").
 struct EncodingError {
   double relative = 0;  ///< 99.9th percentile of |difference of luminance| / max(luminance, 1 % of the mean)
@@ -37,13 +42,20 @@ struct EncodingError {
 EncodingError measure_encoding(const Image& original, const Image& decoded, const Image& receivers,
                                double mean);
 
+/// The same of a component of g (encode/basis.h), relative to the illuminance that it changes; no chroma.
+/// @param illuminance  E of the same page
+EncodingError measure_component(const Image& original, const Image& decoded, const Image& illuminance,
+                                const Image& receivers, double mean);
+
 /// Stands for what choose_encoding() finds.
 inline constexpr std::string_view kAutoEncoding = "auto";
 
-/// The smallest encoding whose error stays below `most` on every page, its chroma below 100 * most; f32 where
-/// none does. Luminance packing, a choice of its user, is not among them.
-EncodingChoice choose_encoding(std::span<const Image> pages, std::span<const Image> receivers, double mean,
-                               double most);
+/// The smallest encoding whose error stays below `most` on every page of every coefficient, its chroma below
+/// 100 * most; f32 where none does. Luminance packing, a choice of its user, is not among them; unsigned ones
+/// are not where there is more than one coefficient.
+/// @param coefficients  pages of each
+EncodingChoice choose_encoding(std::span<const std::span<const Image>> coefficients,
+                               std::span<const Image> receivers, double mean, double most);
 
 /// Luminance (Rec. 709) of an RGB layer as channel `channel` of `packed`.
 void pack_luminance(const Image& layer, Image& packed, std::size_t channel);

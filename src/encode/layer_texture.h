@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "encode/basis.h"
 #include "encode/choice.h"
 
 namespace sconce {
@@ -14,6 +15,7 @@ struct LayerTexture {
   EncodingChoice encoding;
   std::vector<std::size_t> groups;
   std::vector<std::array<float, 4>> gain{};  ///< per page; where textures are read: EncodedImage::gain
+  std::size_t coefficient = 0;               ///< of the basis
 
   /// @param names  of the groups; @return names of the channels: NAME.R, NAME.G, NAME.B or one NAME.Y per
   /// group

@@ -73,6 +73,26 @@ TEST(GltfMaterials, AllThatALightmapNeeds) {
   EXPECT_FLOAT_EQ(scene.materials[3].metallic, 0);
 }
 
+TEST(GltfMaterials, NormalMapsAndTangents) {
+  const TestFolder folder;
+  folder.write("bumps.png", pixels({128, 128, 255}, 1, 1, 3));
+  GltfBuilder b = triangle();
+  b.accessor(b.view<float>({1, 0, 0, -1, 0, 1, 0, 1, 0, 0, 1, 1}), 5126, "VEC4", 3);
+  const Scene scene = import_gltf(folder.write(
+      "scene.gltf",
+      b.json(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TANGENT":1},"material":0}]}],
+    "nodes":[{"mesh":0}],"materials":[{"normalTexture":{"index":0,"texCoord":1,"scale":0.5,"extensions":{
+    "KHR_texture_transform":{"scale":[4,2]}}}},{}],"textures":[{"source":0}],"images":[{"uri":"bumps.png"}])")));
+  const Material& bumpy = scene.materials.at(0);
+  EXPECT_TRUE(scene.has_normal_maps());
+  EXPECT_EQ(scene[bumpy.normal_texture.texture].pixels.data[2], 255);
+  EXPECT_EQ(bumpy.normal_texture.texcoord, 1u);
+  EXPECT_EQ(bumpy.normal_texture.scale, Vec2(4, 2));
+  EXPECT_EQ(bumpy.normal_scale, 0.5f);
+  EXPECT_FALSE(scene.materials.at(1).normal_texture.texture.valid());
+  EXPECT_EQ(scene.meshes.at(0).tangents, (std::vector<glm::vec4>{{1, 0, 0, -1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
+}
+
 TEST(GltfMaterials, MissingAndDamagedTexturesAreNamed) {
   const TestFolder folder;
   folder.write("bad.png", "\x89PNG no");

@@ -89,6 +89,11 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
   if (out.emits())
     out.emission_texture = texture_use(textures, m.emissiveTexture, place + ".emissiveTexture");
 
+  const tinygltf::NormalTextureInfo& normal = m.normalTexture;
+  out.normal_texture = texture_use(textures, normal.index, normal.texCoord,
+                                   extension(normal.extensions, kTransform), place + ".normalTexture");
+  out.normal_scale = static_cast<float>(normal.scale);
+
   if (m.alphaMode == "MASK") {
     out.alpha_mode = Material::Alpha::mask;
   } else if (m.alphaMode == "BLEND") {

@@ -73,7 +73,7 @@ class MeshReader {
 
  private:
   static bool used(const std::string& name) {
-    return name == "POSITION" || name == "NORMAL" || name.starts_with("TEXCOORD_");
+    return name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name.starts_with("TEXCOORD_");
   }
 
   std::nullopt_t skip(const std::string& place, const char* why) {
@@ -91,6 +91,12 @@ class MeshReader {
     if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
       out.normals = vectors(read_floats(source_, normal->second, 3, place + ".NORMAL"));
       check(out.normals.size(), "NORMAL");
+    }
+    if (const auto tangent = primitive.attributes.find("TANGENT"); tangent != primitive.attributes.end()) {
+      const std::vector<float> v = read_floats(source_, tangent->second, 4, place + ".TANGENT");
+      for (std::size_t i = 0; i + 3 < v.size(); i += 4)
+        out.tangents.emplace_back(v[i], v[i + 1], v[i + 2], v[i + 3]);
+      check(out.tangents.size(), "TANGENT");
     }
     for (std::size_t left = primitive.attributes.size(), set = 0; left > 0 && set < 64; ++set) {
       const std::string name = "TEXCOORD_" + std::to_string(set);

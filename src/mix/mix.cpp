@@ -20,7 +20,7 @@ void accumulate(Image& sum, const Rgb& weight, const Image& layer, std::span<con
   });
 }
 
-Image mix_page(const Package& package, const MixSpec& mix, int page) {
+Image mix_page(const Package& package, const MixSpec& mix, int page, std::size_t coefficient) {
   const Manifest& m = package.manifest();
   if (mix.weights.size() != m.groups.size())
     throw Error(package.path().string(), "the mix has another number of groups than the package");
@@ -28,7 +28,8 @@ Image mix_page(const Package& package, const MixSpec& mix, int page) {
   sum.text["sconce:unit"] = "lux";
   for (std::size_t g = 0; g < m.groups.size(); ++g)
     if (!mix.weights[g].is_black())
-      accumulate(sum, mix.weights[g], package.layer(g, page), std::array<std::size_t, 3>{0, 1, 2});
+      accumulate(sum, mix.weights[g], package.layer(g, page, coefficient),
+                 std::array<std::size_t, 3>{0, 1, 2});
   return sum;
 }
 
@@ -36,6 +37,14 @@ std::vector<Image> mix_pages(const Package& package, const MixSpec& mix) {
   std::vector<Image> pages;
   for (int page = 0; page < package.manifest().pages; ++page) pages.push_back(mix_page(package, mix, page));
   return pages;
+}
+
+std::vector<Image> mix_components(const Package& package, const MixSpec& mix) {
+  std::vector<Image> components;
+  for (int page = 0; page < package.manifest().pages; ++page)
+    for (std::size_t c = 1; c < coefficients(package.manifest().basis); ++c)
+      components.push_back(mix_page(package, mix, page, c));
+  return components;
 }
 
 void check_pages(const Manifest& m, const MixSpec& mix, std::span<const Image> pages) {

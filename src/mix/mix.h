@@ -5,9 +5,12 @@
 
 namespace sconce {
 
-/// sum_g w_g * E_g of one page, RGB lux. Layers with weight 0 are not read.
-Image mix_page(const Package& package, const MixSpec& mix, int page);
+/// sum_g w_g * E_g of one page, RGB lux, or of another coefficient of the basis. Layers with weight 0 are not
+/// read.
+Image mix_page(const Package& package, const MixSpec& mix, int page, std::size_t coefficient = 0);
 std::vector<Image> mix_pages(const Package& package, const MixSpec& mix);
+/// The vectors g of a mix, one image per axis: [3 * page + axis]. Empty where the basis is flat.
+std::vector<Image> mix_components(const Package& package, const MixSpec& mix);
 /// @throws Error when the mix or its pages are of another package
 void check_pages(const Manifest& manifest, const MixSpec& mix, std::span<const Image> pages);
 

@@ -149,6 +149,8 @@ class Reader {
     if (v.has("extensions"))
       m.emission *= v.at("extensions").at("KHR_materials_emissive_strength").at("emissiveStrength").real();
     m.emission_texture = texture_use(v, "emissiveTexture");
+    m.normal_texture = texture_use(v, "normalTexture");
+    if (v.has("normalTexture")) m.normal_scale = static_cast<float>(v.at("normalTexture").number("scale", 1));
     const std::string alpha = v.text("alphaMode", "OPAQUE");
     m.alpha_mode = alpha == "MASK"    ? Material::Alpha::mask
                    : alpha == "BLEND" ? Material::Alpha::blend
@@ -169,6 +171,11 @@ class Reader {
       m.normals = values<Vec3>(attributes.at("NORMAL"), "VEC3", 5126, 1);
       if (m.normals.size() != m.positions.size())
         attributes.at("NORMAL").fail("has another count than POSITION");
+    }
+    if (attributes.has("TANGENT")) {
+      m.tangents = values<glm::vec4>(attributes.at("TANGENT"), "VEC4", 5126, 1);
+      if (m.tangents.size() != m.positions.size())
+        attributes.at("TANGENT").fail("has another count than POSITION");
     }
     for (std::size_t set = 0; attributes.has("TEXCOORD_" + std::to_string(set)); ++set) {
       const JsonValue uv = attributes.at("TEXCOORD_" + std::to_string(set));

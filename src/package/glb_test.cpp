@@ -44,6 +44,8 @@ Scene sample() {
   lamp.emission_texture.texture = Id<Texture>(2);
   lamp.base_color_texture = {Id<Texture>(0), 1, {0.1f, 0.2f}, {3, 4}, 0.5f};
   lamp.metallic_roughness_texture.texture = Id<Texture>(1);
+  lamp.normal_texture = {Id<Texture>(1), 1, {0.5f, 0}, {2, 2}, 0};
+  lamp.normal_scale = 0.75f;
   lamp.alpha_mode = Material::Alpha::mask;
   lamp.alpha_cutoff = 0.3f;
   lamp.double_sided = true;
@@ -55,6 +57,7 @@ Scene sample() {
   scene.meshes.push_back(test_quad("front", Id<Material>(1), 1));
   scene.meshes.push_back(test_quad("back", Id<Material>(1), 1, true));
   scene.meshes[0].normals.clear();
+  scene.meshes[1].tangents.assign(4, {0, 0.6f, 0.8f, -1});
   Instance instance;
   instance.name = "front";
   instance.mesh = Id<Mesh>(1);
@@ -116,13 +119,14 @@ TEST(Glb, SceneComesBack) {
     EXPECT_EQ(y.metallic, x.metallic);
     EXPECT_EQ(y.roughness, x.roughness);
     EXPECT_EQ(y.emission, x.emission);
+    EXPECT_EQ(y.normal_scale, x.normal_scale);
     EXPECT_EQ(y.alpha_mode, x.alpha_mode);
     if (x.alpha_mode == Material::Alpha::mask) {
       EXPECT_EQ(y.alpha_cutoff, x.alpha_cutoff);
     }
     EXPECT_EQ(y.double_sided, x.double_sided);
     for (const auto use : {&Material::base_color_texture, &Material::metallic_roughness_texture,
-                           &Material::emission_texture}) {
+                           &Material::emission_texture, &Material::normal_texture}) {
       EXPECT_EQ((y.*use).texture, (x.*use).texture);
       EXPECT_EQ((y.*use).texcoord, (x.*use).texcoord);
       EXPECT_EQ((y.*use).offset, (x.*use).offset);
@@ -135,6 +139,7 @@ TEST(Glb, SceneComesBack) {
     EXPECT_EQ(b.meshes[i].material, a.meshes[i].material);
     EXPECT_EQ(b.meshes[i].positions, a.meshes[i].positions);
     EXPECT_EQ(b.meshes[i].normals, a.meshes[i].normals);
+    EXPECT_EQ(b.meshes[i].tangents, a.meshes[i].tangents);
     EXPECT_EQ(b.meshes[i].texcoords, a.meshes[i].texcoords);
     ASSERT_EQ(b.meshes[i].triangles.size(), a.meshes[i].triangles.size());
     for (std::size_t t = 0; t < a.meshes[i].triangles.size(); ++t)

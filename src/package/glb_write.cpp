@@ -142,6 +142,10 @@ class Writer {
       }
     }
     if (m.emission_texture.texture) out["emissiveTexture"] = texture_use(m.emission_texture);
+    if (m.normal_texture.texture) {
+      out["normalTexture"] = texture_use(m.normal_texture);
+      if (m.normal_scale != 1) out["normalTexture"]["scale"] = m.normal_scale;
+    }
     if (m.alpha_mode == Material::Alpha::mask) {
       out["alphaMode"] = "MASK";
       out["alphaCutoff"] = m.alpha_cutoff;
@@ -164,6 +168,7 @@ class Writer {
     accessor["min"] = array(bounds.lo);
     accessor["max"] = array(bounds.hi);
     if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(mesh.normals, "VEC3");
+    if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(mesh.tangents, "VEC4");
     for (std::size_t set = 0; set < mesh.texcoords.size(); ++set) {
       // glTF numbers its sets without holes: one that this mesh lacks is written as zeros.
       std::vector<Vec2> uvs = mesh.texcoords[set];

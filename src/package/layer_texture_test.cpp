@@ -126,5 +126,74 @@ TEST(LayerTextures, BadNamesAndFiles) {
   }
 }
 
+/// The basis sh1: what reads the first coefficient alone sees a flat package.
+TEST(LayerTextures, DirectionalBasis) {
+  const TemporaryFolder folder;
+  PackageContents c = directional_test_package(2, 2, 9, 5);
+  c.encodings = {"f32", "srgbe8"};
+  write_package(folder / "x.sconce", c);
+  const Package package = Package::open(folder / "x.sconce");
+  EXPECT_EQ(package.manifest().basis, Basis::sh1);
+  ASSERT_EQ(package.manifest().layers.size(), 16u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (int p = 0; p < 2; ++p) {
+      EXPECT_EQ(package.layer(0, p, k).data, c.layers[2 * k][static_cast<std::size_t>(p)].data);
+      EXPECT_EQ(package.layer_info(0, p, k).error.relative, 0);
+      EXPECT_LE(package.layer_info(1, p, k).error.relative, 0.05);
+    }
+    const std::vector<LayerTexture> textures = package.textures(k);
+    ASSERT_EQ(textures.size(), 2u);
+    EXPECT_EQ(textures[1].coefficient, k);
+    EXPECT_EQ(decode(package.encoded(textures[1], 1)).data, package.layer(1, 1, k).data);
+  }
+  EXPECT_LT(package.layer(1, 0, 3).data[5], 0) << "signed";
+  EXPECT_EQ(package.layer_info(0, 1).file, "a.1.exr");
+  EXPECT_EQ(package.layer_info(0, 1, 2).file, "a.y.1.exr");
+
+  const fs::path manifest = folder / "x.sconce" / "manifest.json";
+  const std::string text = read_file(manifest);
+  const auto error_with = [&](const std::string& from, const std::string& to) {
+    std::string damaged = text;
+    damaged.replace(damaged.find(from), from.size(), to);
+    write_file(manifest, damaged);
+    try {
+      Package::open(folder / "x.sconce");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(error_with("\"basis\": \"sh1\"", "\"basis\": \"sh2\"").find("unknown basis 'sh2'"),
+            std::string::npos);
+  EXPECT_NE(error_with("\"coefficient\": 2", "\"coefficient\": 1").find("more than one page 0 of group 'a'"),
+            std::string::npos);
+  EXPECT_NE(error_with("\"coefficient\": 2", "\"coefficient\": 4").find("coefficient"), std::string::npos);
+}
+
+TEST(LayerTextures, UnsignedEncodingsRefuseDirections) {
+  const TemporaryFolder folder;
+  for (const Encoding& e : encodings())
+    for (const bool luminance : {false, true}) {
+      if (luminance && !e.per_channel) continue;
+      PackageContents c = directional_test_package(1, 1, 4, 4);
+      const std::string name = (luminance ? "lum:" : "") + std::string(e.name);
+      c.encodings = {name};
+      if (e.is_signed && !luminance) {
+        EXPECT_NO_THROW(write_package(folder / "x.sconce", c)) << name;
+      } else {
+        EXPECT_THROW(write_package(folder / "x.sconce", c), Error) << name;
+      }
+    }
+  PackageContents c = directional_test_package(1, 1, 9, 5);
+  c.encodings = {std::string(kAutoEncoding)};
+  c.max_error = 0.05;
+  write_package(folder / "x.sconce", c);
+  const Package package = Package::open(folder / "x.sconce");
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(package.layer_info(0, 0, k).encoding, "srgbe8");
+    EXPECT_LE(package.layer_info(0, 0, k).error.relative, 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace sconce

@@ -77,6 +77,7 @@ LayerInfo parse_layer(const JsonValue& v, const Manifest& m) {
   layer.file = base_name(v.at("file"));
   layer.hash = v.at("hash").text();
   layer.bytes = static_cast<uint64_t>(v.at("bytes").integer(0, INT64_MAX));
+  if (v.has("coefficient")) layer.coefficient = v.at("coefficient").index(coefficients(m.basis));
   if (v.has("channel")) layer.channel = static_cast<int>(v.at("channel").index(4));
   layer.gain = v.number("gain", 1);
   if (!(layer.gain > 0)) v.at("gain").fail("is not above 0");
@@ -84,16 +85,18 @@ LayerInfo parse_layer(const JsonValue& v, const Manifest& m) {
   return layer;
 }
 
-// Every group has each page exactly once.
+// Every group has each page of each coefficient exactly once.
 void check_layers(const JsonValue& list, const Manifest& m, const std::vector<LayerInfo>& layers) {
-  std::vector<int> seen(m.groups.size() * static_cast<std::size_t>(m.pages), 0);
+  const std::size_t pages = static_cast<std::size_t>(m.pages), groups = m.groups.size();
+  std::vector<int> seen(coefficients(m.basis) * groups * pages, 0);
   for (const LayerInfo& layer : layers)
-    ++seen[layer.group * static_cast<std::size_t>(m.pages) + static_cast<std::size_t>(layer.page)];
+    ++seen[(layer.coefficient * groups + layer.group) * pages + static_cast<std::size_t>(layer.page)];
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i] == 1) continue;
-    const std::size_t pages = static_cast<std::size_t>(m.pages);
+    const std::size_t coefficient = i / pages / groups;
     list.fail((seen[i] == 0 ? "misses page " : "has more than one page ") + std::to_string(i % pages) +
-              " of group '" + m.groups[i / pages].name + "'");
+              " of group '" + m.groups[i / pages % groups].name + "'" +
+              (coefficient == 0 ? std::string() : ", coefficient " + std::to_string(coefficient)));
   }
 }
 
@@ -110,6 +113,7 @@ Json print_layers(const std::vector<LayerInfo>& layers, const Manifest& m) {
                     {"error", finite(l.error.relative, "layers.error")},
                     {"chroma_error", finite(l.error.chroma, "layers.chroma_error")}});
     if (l.channel >= 0) list.back()["channel"] = l.channel;
+    if (l.coefficient > 0) list.back()["coefficient"] = l.coefficient;
   }
   return list;
 }
@@ -129,7 +133,7 @@ bool is_package(const std::filesystem::path& folder) {
   return read_file(file).find(kPackageFormat) != std::string::npos;
 }
 
-std::vector<std::string> layer_names(std::span<const GroupInfo> groups) {
+std::vector<std::string> layer_names(std::span<const GroupInfo> groups, std::size_t coefficient) {
   std::vector<std::string> names;
   for (const GroupInfo& group : groups) {
     std::string name;
@@ -141,6 +145,7 @@ std::vector<std::string> layer_names(std::span<const GroupInfo> groups) {
       unique = name + "_" + std::to_string(n);
     names.push_back(std::move(unique));
   }
+  for (std::string& name : names) name += coefficient_suffix(coefficient);
   return names;
 }
 
@@ -165,6 +170,7 @@ std::string print_manifest(const Manifest& m) {
                 {"lightmap_set", m.lightmap_set},
                 {"instance_pages", m.instance_pages},
                 {"instance_twins", m.instance_twins}};
+  j["basis"] = basis_row(m.basis).name;
   j["groups"] = Json::array();
   for (const GroupInfo& g : m.groups) {
     const std::string key = "groups." + g.name + ".";
@@ -218,6 +224,12 @@ Manifest parse_manifest(std::string_view text, const std::string& where) {
     m.instance_twins.push_back(
         static_cast<int>(twins.at(i).integer(-1, static_cast<int64_t>(twins.size()) - 1)));
 
+  const std::string basis = root.text("basis", "flat");
+  try {
+    m.basis = find_basis(basis);
+  } catch (const UsageError& e) {
+    throw Error(where, e.what());
+  }
   const JsonValue groups = root.at("groups"), layers = root.at("layers");
   for (std::size_t i = 0; i < groups.size(); ++i) m.groups.push_back(parse_group(groups.at(i)));
   for (std::size_t i = 0; i < layers.size(); ++i) m.layers.push_back(parse_layer(layers.at(i), m));

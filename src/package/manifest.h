@@ -27,8 +27,8 @@ bool is_package(const std::filesystem::path& folder);
 bool is_base_name(std::string_view name);
 
 /// Group names as OpenEXR layer names: dots and characters other than letters, digits, `-` and `_` become
-/// `_`; what then is the same gets a number.
-std::vector<std::string> layer_names(std::span<const GroupInfo> groups);
+/// `_`; what then is the same gets a number. Components of g end in .x, .y, .z.
+std::vector<std::string> layer_names(std::span<const GroupInfo> groups, std::size_t coefficient = 0);
 
 /// Folders of the layers and of those before the denoiser.
 inline constexpr std::string_view kLayerFolder = "layers", kRawFolder = "raw";

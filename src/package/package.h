@@ -36,13 +36,14 @@ struct GroupInfo {
 struct LayerInfo {
   uint32_t group = 0;
   int page = 0;
-  std::string encoding;   ///< EncodingChoice::name()
-  std::string file;       ///< base name below layers/; groups that share a texture name the same
-  std::string hash;       ///< of the file's bytes
-  uint64_t bytes = 0;     ///< of the file
-  int channel = -1;       ///< luminance packing: which channel of the file; -1 = R, G, B
-  double gain = 1;        ///< EncodedImage::gain
-  EncodingError error{};  ///< against the layer before it was encoded
+  std::string encoding;         ///< EncodingChoice::name()
+  std::string file;             ///< base name below layers/; groups that share a texture name the same
+  std::string hash;             ///< of the file's bytes
+  uint64_t bytes = 0;           ///< of the file
+  std::size_t coefficient = 0;  ///< of the basis
+  int channel = -1;             ///< luminance packing: which channel of the file; -1 = R, G, B
+  double gain = 1;              ///< EncodedImage::gain
+  EncodingError error{};        ///< against the layer before it was encoded
 };
 
 /// Where an option's value came from: "default", "side file", "command line".
@@ -60,6 +61,7 @@ struct Manifest {
   uint32_t lightmap_set = 0;        ///< TEXCOORD_n of scene.glb that holds lightmap coordinates
   std::vector<int> instance_pages;  ///< per mesh node of scene.glb; -1 = none
   std::vector<int> instance_twins;  ///< per mesh node: node of its twin (same triangles from behind), or -1
+  Basis basis = Basis::flat;
   std::vector<GroupInfo> groups;
   std::vector<LayerInfo> layers;
   std::vector<LayerInfo> raw;  ///< the layers before the denoiser, of the same form; empty = not denoised
@@ -77,7 +79,7 @@ struct KeptLayer {
   std::size_t group;
 };
 
-/// What a writer hands over. Images are per page: layers[group][page], RGB lux.
+/// What a writer hands over. Images are per page: layers[coefficient * groups + group][page], RGB lux.
 struct PackageContents {
   Manifest manifest;  ///< layers, raw, hashes are filled in by the writer
   Scene scene;        ///< BakedScene::scene
@@ -116,20 +118,22 @@ class Package {
 
   const Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& path() const { return path_; }
-  /// @throws Error when there is no such group or page
-  const LayerInfo& layer_info(std::size_t group, int page) const;
-  /// What layer_files() are, in the order of their first groups, with gains; every page alike.
+  /// @throws Error when there is no such group, page or coefficient
+  const LayerInfo& layer_info(std::size_t group, int page, std::size_t coefficient = 0) const;
+  /// What layer_files() of one coefficient are, in the order of their first groups, with gains; every page
+  /// alike.
   /// @throws Error where pages of a group differ in encoding
-  std::vector<LayerTexture> textures() const;
+  std::vector<LayerTexture> textures(std::size_t coefficient = 0) const;
   /// One page of such a texture. @throws as encoded()
   EncodedImage encoded(const LayerTexture& texture, int page) const {
-    return encoded(layer_info(texture.groups.front(), page));
+    return encoded(layer_info(texture.groups.front(), page, texture.coefficient));
   }
   /// One of layer_files() as it is stored: R, G, B, or the luminances of all groups that share its file.
   /// @throws Error naming the file when damaged or of another size
   EncodedImage encoded(const LayerInfo& layer) const;
-  /// Decoded layer, RGB lux. @throws as encoded()
-  Image layer(std::size_t group, int page) const;
+  /// Decoded layer, RGB lux. The first coefficient of every basis is E at the shading normal. @throws as
+  /// encoded()
+  Image layer(std::size_t group, int page, std::size_t coefficient = 0) const;
   Image receivers(int page) const;
   Image noise(int page) const;
   /// What PackageContents::layout was. @throws Error when there is none

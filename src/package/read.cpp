@@ -57,6 +57,9 @@ void check_listed(const Manifest& m, const std::string& where) {
       } catch (const UsageError& e) {
         throw Error(where, "layer " + layer.file + ": " + e.what());
       }
+      if (m.basis != Basis::flat && !signed_encoding(choice))
+        throw Error(where, "layer " + layer.file + " has the encoding " + layer.encoding +
+                               ", which cannot hold the basis " + std::string(basis_row(m.basis).name));
       if (choice.luminance != (layer.channel >= 0))
         throw Error(where, "layer " + layer.file + " has the encoding " + layer.encoding +
                                (choice.luminance ? " and no channel" : " and a channel"));
@@ -126,7 +129,7 @@ std::filesystem::path Package::layer_folder() const {
 }
 
 EncodedImage Package::encoded(const LayerInfo& layer) const {
-  const std::vector<std::string> names = layer_names(manifest_.groups);
+  const std::vector<std::string> names = layer_names(manifest_.groups, layer.coefficient);
   const std::string& name = names[layer.group];
   LayerShape shape{
       parse_encoding(layer.encoding).encoding, manifest_.width, manifest_.height, {}, {1, 1, 1, 1}};
@@ -145,20 +148,20 @@ EncodedImage Package::encoded(const LayerInfo& layer) const {
   return read_layer_file(layer_folder() / layer.file, shape);
 }
 
-std::vector<LayerTexture> Package::textures() const {
+std::vector<LayerTexture> Package::textures(std::size_t coefficient) const {
   std::vector<LayerTexture> textures;
   std::map<std::string, std::size_t> by_file;  // of page 0
   for (std::size_t g = 0; g < manifest_.groups.size(); ++g) {
-    const LayerInfo& first = layer_info(g, 0);
+    const LayerInfo& first = layer_info(g, 0, coefficient);
     const auto [known, added] = by_file.emplace(first.file, textures.size());
-    if (added) textures.push_back({parse_encoding(first.encoding), {}, {}});
+    if (added) textures.push_back({parse_encoding(first.encoding), {}, {}, coefficient});
     LayerTexture& texture = textures[known->second];
     texture.gain.resize(static_cast<std::size_t>(manifest_.pages), {1, 1, 1, 1});
     const auto channel = static_cast<std::size_t>(std::max(0, first.channel));
     texture.groups.resize(std::max(texture.groups.size(), channel + 1));
     texture.groups[channel] = g;
     for (int page = 0; page < manifest_.pages; ++page) {
-      const LayerInfo& layer = layer_info(g, page);
+      const LayerInfo& layer = layer_info(g, page, coefficient);
       if (layer.encoding != first.encoding || layer.channel != first.channel)
         throw Error(path_.string(), "group '" + manifest_.groups[g].name + "' is encoded otherwise on page " +
                                         std::to_string(page));
@@ -172,14 +175,14 @@ std::vector<LayerTexture> Package::textures() const {
   return textures;
 }
 
-const LayerInfo& Package::layer_info(std::size_t group, int page) const {
+const LayerInfo& Package::layer_info(std::size_t group, int page, std::size_t coefficient) const {
   for (const LayerInfo& layer : layer_files())
-    if (layer.group == group && layer.page == page) return layer;
+    if (layer.group == group && layer.page == page && layer.coefficient == coefficient) return layer;
   throw Error(path_.string(), "has no layer " + std::to_string(group) + " on page " + std::to_string(page));
 }
 
-Image Package::layer(std::size_t group, int page) const {
-  const LayerInfo& info = layer_info(group, page);
+Image Package::layer(std::size_t group, int page, std::size_t coefficient) const {
+  const LayerInfo& info = layer_info(group, page, coefficient);
   Image image = decode(encoded(info));
   if (info.channel >= 0)
     image = unpack_luminance(image, static_cast<std::size_t>(info.channel), manifest_.groups[group].color);

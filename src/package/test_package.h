@@ -88,4 +88,18 @@ inline PackageContents test_package(int groups, int pages, int width, int height
   return c;
 }
 
+/// The same with the basis sh1: component k of g is -k times E, plus k.
+inline PackageContents directional_test_package(int groups, int pages, int width, int height) {
+  PackageContents c = test_package(groups, pages, width, height);
+  c.manifest.basis = Basis::sh1;
+  const auto flat = c.layers;
+  for (int k = 1; k < 4; ++k)
+    for (auto layer : flat) {
+      for (Image& page : layer)
+        for (float& v : page.data) v = static_cast<float>(k) * (1 - v);
+      c.layers.push_back(std::move(layer));
+    }
+  return c;
+}
+
 }  // namespace sconce

@@ -40,15 +40,16 @@ void check_page(const Image& image, const Manifest& m, std::size_t channels, con
 void check(const PackageContents& c) {
   const Manifest& m = c.manifest;
   const auto pages = static_cast<std::size_t>(m.pages);
-  if (c.layers.size() != m.groups.size() || c.encodings.size() != m.groups.size() ||
-      c.receivers.size() != pages || (!c.noise.empty() && c.noise.size() != pages))
+  const std::size_t layers = m.groups.size() * coefficients(m.basis);
+  if (c.layers.size() != layers || c.encodings.size() != m.groups.size() || c.receivers.size() != pages ||
+      (!c.noise.empty() && c.noise.size() != pages))
     throw Error({}, "the package's images do not match its groups and pages");
   for (std::size_t g = 0; g < c.layers.size(); ++g) {
     if (c.layers[g].size() != pages) throw Error({}, "a light group's layer misses a page");
     for (const Image& image : c.layers[g]) check_page(image, m, 3, "a layer's");
   }
   for (const Image& image : c.receivers) check_page(image, m, 4, "the receivers'");
-  if (!c.raw.empty() && (c.raw.size() != m.groups.size() || c.raw_noise.size() != pages))
+  if (!c.raw.empty() && (c.raw.size() != layers || c.raw_noise.size() != pages))
     throw Error({}, "the package's raw layers do not match its groups and pages");
   for (const std::vector<Image>& group : c.raw) {
     if (group.size() != pages) throw Error({}, "a light group's raw layer misses a page");
@@ -131,17 +132,24 @@ class Writer {
   }
 
  private:
-  /// What a solver gave is kept in floats where the denoiser's result is not.
-  EncodingChoice encoding_of(std::size_t g, const std::vector<Image>& pages, bool raw) const {
+  /// One for all coefficients. What a solver gave is kept in floats where the denoiser's result is not.
+  EncodingChoice encoding_of(std::size_t g, const std::vector<std::vector<Image>>& layers, bool raw) const {
+    std::vector<std::span<const Image>> pages;  // per coefficient
+    for (std::size_t l = g; l < layers.size(); l += m_.groups.size()) pages.emplace_back(layers[l]);
     EncodingChoice choice;
     if (c_.encodings[g] == kAutoEncoding)
       choice = raw ? parse_encoding("f16")
                    : choose_encoding(pages, c_.receivers, m_.groups[g].mean_lux, c_.max_error);
     else
       choice = parse_encoding(c_.encodings[g]);
+    if (pages.size() > 1 && !signed_encoding(choice))
+      throw Error({}, "the encoding " + choice.name() + " cannot hold the basis " +
+                          std::string(basis_row(m_.basis).name));
     if (raw && choice.encoding->name != "f32") choice = parse_encoding("f16");
     // Direct sun exceeds what halves hold: such a layer is kept in full floats rather than clipped.
-    const bool fits = choice.encoding->has_gain || largest(pages) <= choice.encoding->largest;
+    const bool fits = choice.encoding->has_gain ||
+                      std::all_of(pages.begin(), pages.end(),
+                                  [&](const auto& p) { return largest(p) <= choice.encoding->largest; });
     return fits ? choice : EncodingChoice{&find_encoding("f32"), choice.luminance};
   }
 
@@ -149,16 +157,23 @@ class Writer {
                   std::vector<LayerInfo>& listed) {
     const bool raw = &layers == &c_.raw, own = raw == !c_.raw.empty();
     std::vector<EncodingChoice> encodings;
-    for (std::size_t g = 0; g < layers.size(); ++g) encodings.push_back(encoding_of(g, layers[g], raw));
-    const auto pages = static_cast<std::size_t>(m_.pages);
-    listed.assign(layers.size() * pages, {});  // per group and page; jobs point into it
+    const std::size_t groups = m_.groups.size(), pages = static_cast<std::size_t>(m_.pages);
+    for (std::size_t g = 0; g < groups; ++g) encodings.push_back(encoding_of(g, layers, raw));
+    listed.assign(layers.size() * pages, {});  // per layer and page; jobs point into it
+    std::vector<LayerTexture> textures;
+    for (std::size_t c = 0; c < coefficients(m_.basis); ++c)
+      for (LayerTexture& texture : share_textures(encodings)) {
+        texture.coefficient = c;
+        textures.push_back(std::move(texture));
+      }
     std::map<std::string, int> packs;
-    for (const LayerTexture& texture : share_textures(encodings)) {
-      const std::size_t g = texture.groups.front();
+    for (const LayerTexture& texture : textures) {
+      const std::size_t g = texture.groups.front(), first = texture.coefficient * groups;
       if (own && !texture.encoding.luminance && g < c_.kept.size() && c_.kept[g] &&
-          keep_files(g, *c_.kept[g], texture.encoding, folder, &listed[g * pages]))
+          keep_files(g, *c_.kept[g], texture, folder, &listed[(first + g) * pages]))
         continue;
-      std::string stem = safe_file_name(m_.groups[g].name);
+      std::string stem =
+          safe_file_name(m_.groups[g].name) + std::string(coefficient_suffix(texture.coefficient));
       if (texture.encoding.luminance) {
         const std::string name = "lum-" + std::string(texture.encoding.encoding->name);
         stem = safe_file_name(name + "." + std::to_string(packs[name]++));
@@ -168,9 +183,10 @@ class Writer {
             page_file(stem, static_cast<int>(page), layer_extension(*texture.encoding.encoding));
         Job job{fs::path(folder) / file, {}};
         for (std::size_t i = 0; i < texture.groups.size(); ++i) {
-          LayerInfo& layer = listed[texture.groups[i] * pages + page];
+          LayerInfo& layer = listed[(first + texture.groups[i]) * pages + page];
           layer.group = static_cast<uint32_t>(texture.groups[i]);
           layer.page = static_cast<int>(page);
+          layer.coefficient = texture.coefficient;
           layer.encoding = texture.encoding.name();
           layer.file = file;
           if (texture.encoding.luminance) layer.channel = static_cast<int>(i);
@@ -189,28 +205,34 @@ class Writer {
                      const LayerTexture& texture, std::size_t page,
                      const std::vector<LayerInfo*>& infos) const {
     std::vector<const Image*> images;
-    for (const std::size_t g : texture.groups) images.push_back(&layers[g][page]);
+    for (const std::size_t g : texture.groups)
+      images.push_back(&layers[texture.coefficient * m_.groups.size() + g][page]);
     const EncodedImage encoded = texture.encode(images);
     for (std::size_t i = 0; i < images.size(); ++i) {
       const std::size_t g = texture.groups[i];
       infos[i]->gain = encoded.gain[texture.encoding.luminance ? i : 0];
-      infos[i]->error = measure_encoding(*images[i], texture.decode(encoded, i, m_.groups[g].color),
-                                         c_.receivers[page], m_.groups[g].mean_lux);
+      const Image decoded = texture.decode(encoded, i, m_.groups[g].color);
+      const double mean = m_.groups[g].mean_lux;
+      infos[i]->error =
+          texture.coefficient == 0
+              ? measure_encoding(*images[i], decoded, c_.receivers[page], mean)
+              : measure_component(*images[i], decoded, layers[g][page], c_.receivers[page], mean);
     }
     std::map<std::string, std::string> text;
     if (!texture.encoding.luminance) text["sconce:group"] = m_.groups[texture.groups.front()].name;
-    write_layer_file(file, encoded, texture.channels(names_), std::move(text));
+    const std::vector<std::string> names = layer_names(m_.groups, texture.coefficient);
+    write_layer_file(file, encoded, texture.channels(names), std::move(text));
   }
 
   /// The files of a kept layer as they are; false where they must be written anew.
-  bool keep_files(std::size_t g, const KeptLayer& kept, const EncodingChoice& encoding,
-                  std::string_view folder, LayerInfo* listed) {
+  bool keep_files(std::size_t g, const KeptLayer& kept, const LayerTexture& texture, std::string_view folder,
+                  LayerInfo* listed) {
     const Package from = kept.from->solved();
     const std::vector<GroupInfo>& groups = from.manifest().groups;
-    const auto info = [&](int page) { return from.layer_info(kept.group, page); };
+    const auto info = [&](int page) { return from.layer_info(kept.group, page, texture.coefficient); };
     // The name is in the files, too.
     if (groups[kept.group].name != m_.groups[g].name || layer_names(groups)[kept.group] != names_[g] ||
-        info(0).encoding != encoding.name())
+        info(0).encoding != texture.encoding.name())
       return false;
     for (int page = 0; page < m_.pages; ++page) {
       listed[page] = info(page);

@@ -23,37 +23,49 @@ Rgb bilinear(const Image& page, Vec2 uv) {
   return (1 - y.fraction) * top + y.fraction * bottom;
 }
 
-Rgb illuminance(const LightmapSide& side, Vec2 barycentric, const std::vector<Image>& pages) {
-  if (side.page < 0) return Rgb(0);
-  return bilinear(pages[static_cast<std::size_t>(side.page)], side.at(barycentric));
-}
-
 }  // namespace
 
-View::Seen View::look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
+Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {
+  const LightmapSide& place = side(hit.triangle, hit.back);
+  if (place.page < 0) return Rgb(0);
+  const Vec2 b = hit.barycentric, uv = place.at(b);
+  const auto page = static_cast<std::size_t>(place.page);
+  Rgb e = bilinear(mix.pages[page], uv);
+  if (mix.components.empty()) return e;
+  const Vec3 offset = (hit.back ? -1.0f : 1.0f) * normal_offset(scene(), world(), hit.triangle, b);
+  if (offset == Vec3(0)) return e;
+  for (int axis = 0; axis < 3; ++axis)
+    e += offset[axis] * bilinear(mix.components[3 * page + static_cast<std::size_t>(axis)], uv);
+  return {std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)};
+}
+
+View::Seen View::look(const Ray& ray, const Mixed& mix,
                       const std::function<Rgb(const SurfacePoint&)>& added) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   Shade surface;
   if (hit) {
     surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-    Rgb light = illuminance(side(hit.triangle, hit.back), hit.barycentric, pages);
+    Rgb light = illuminance(hit, mix);
     const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
     if (lit && added) light += added(surface_point(world(), hit));
     seen.radiance = surface.receiver_albedo() * light * kInvPi;
   }
   for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
     seen.emitter = seen.emitter || !shine.is_black();
-    seen.radiance += weight_of(mix, group) * shine;
+    seen.radiance += weight_of(mix.spec, group) * shine;
   });
   return seen;
 }
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                    const PictureParams& params, const Progress& progress, Image* coverage,
-                   const AddedLight& added) const {
+                   const AddedLight& added, const std::vector<Image>& components) const {
   params.check();
   check_pages(package_->manifest(), mix, pages);
+  if (!components.empty() && components.size() != 3 * pages.size())
+    throw Error({}, "the mix does not belong to this package");
+  const Mixed mixed{mix, pages, components};
   const Lens lens(camera, params);
   Image picture = Image::rgb(params.width, params.height);
   if (coverage != nullptr) *coverage = Image(params.width, params.height, {"coverage"});
@@ -67,7 +79,7 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     for (int s = 0; s < params.samples; ++s) {
       std::function<Rgb(const SurfacePoint&)> here;
       if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, static_cast<uint32_t>(s)); };
-      const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, mix, pages, here);
+      const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, mixed, here);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

@@ -29,15 +29,20 @@ class View {
   /// rho/pi E_g). Backs are black, but for those with a lightmap of their own (twins) and for what
   /// double-sided materials emit. Rays that leave the scene see its skies. The same bits with any number of
   /// threads.
-  /// @param pages     mix_pages() of the same mix
-  /// @param coverage  when given: per pixel, the share of samples that see an emitter (or the sky), one
+  /// @param pages       mix_pages() of the same mix
+  /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky), one
   /// channel
-  /// @param added     light beside the lightmap's; may be empty
+  /// @param added       light beside the lightmap's; may be empty
+  /// @param components  mix_components() of the same mix: with them normal maps are seen, E = max(0, E + g .
+  /// (n - n_s)); without them surfaces are as smooth as their geometry
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
-               const AddedLight& added = {}) const;
-  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move.
+               const AddedLight& added = {}, const std::vector<Image>& components = {}) const;
+  /// Whether components would be seen.
+  bool sees_normal_maps() const;
+  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move. Normal maps are
+  /// not seen.
   /// @throws as render()
   CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
                   const Progress& progress = {}) const;
@@ -59,8 +64,13 @@ class View {
     Rgb radiance;  ///< cd/m2
     bool emitter = false;
   };
-  Seen look(const Ray& ray, const MixSpec& mix, const std::vector<Image>& pages,
-            const std::function<Rgb(const SurfacePoint&)>& added) const;
+  /// A mix's images, per page.
+  struct Mixed {
+    const MixSpec& spec;
+    const std::vector<Image>&pages, &components;
+  };
+  Seen look(const Ray& ray, const Mixed& mix, const std::function<Rgb(const SurfacePoint&)>& added) const;
+  Rgb illuminance(const Hit& hit, const Mixed& mix) const;
   Camera eye_height_camera() const;
 
   const Package* package_;

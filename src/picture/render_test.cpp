@@ -231,5 +231,63 @@ TEST_F(Picture, BadRequests) {
   EXPECT_THROW(view.render(view.camera(""), mix, pages, params, progress), Cancelled);
 }
 
+/// A wall facing +z whose normal map turns all normals to (0.6, 0, 0.8); E = 100 lux, g = (-50, 7, 30) lux.
+PackageContents bumpy_wall() {
+  PackageContents c = directional_test_package(1, 1, 8, 8);
+  Texture map;
+  map.pixels = {1, 1, 3, {204, 128, 230}};
+  c.scene.textures = {map};
+  c.scene.materials[0].normal_texture.texture = Id<Texture>(0);
+  const float values[] = {100, -50, 7, 30};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (float& v : c.layers[k][0].data) v = values[k];
+  return c;
+}
+
+TEST_F(Picture, NormalMapsTurnDirectionalLight) {
+  const auto look = [&](const PackageContents& c, bool with) {
+    const Package package = write(c);
+    const View view(package);
+    const MixSpec mix{{Rgb(2, 2, 1)}};
+    PictureParams params;
+    params.width = params.height = 8;
+    EXPECT_EQ(view.sees_normal_maps(), !c.scene.textures.empty() && c.manifest.basis == Basis::sh1);
+    return view.render(view.camera(""), mix, mix_pages(package, mix), params, {}, nullptr, {},
+                       with ? mix_components(package, mix) : std::vector<Image>{});
+  };
+  PackageContents c = bumpy_wall();
+  const Vec3 n = glm::normalize(2.0f * Vec3(204, 128, 230) / 255.0f - 1.0f);
+  const float e = 100 - 50 * n.x + 7 * n.y + 30 * (n.z - 1);
+  expect_all(look(c, true), Rgb(2, 2, 1) * (0.5f * kInvPi * e));
+  expect_all(look(c, false), Rgb(2, 2, 1) * (0.5f * kInvPi * 100));
+  for (float& v : c.layers[1][0].data) v = -500;
+  expect_all(look(c, true), Rgb(0));
+  c.scene.textures.clear();
+  c.scene.materials[0].normal_texture = {};
+  expect_all(look(c, true), Rgb(2, 2, 1) * (0.5f * kInvPi * 100));
+}
+
+/// Seen from behind, a double-sided wall's mapped normal is turned round with its own.
+TEST_F(Picture, NormalMapsOnBacks) {
+  PackageContents c = bumpy_wall();
+  c.scene.materials[0].double_sided = true;
+  c.scene.meshes.push_back(test_quad("quad", Id<Material>(0), 0, true));
+  Instance twin = c.scene.instances[0];
+  twin.mesh = Id<Mesh>(1);
+  c.scene.instances.push_back(twin);
+  c.manifest.instance_pages = {0, 0};
+  c.manifest.instance_twins = {1, 0};
+  const Package package = write(c);
+  const View view(package);
+  const MixSpec mix{{Rgb(1)}};
+  PictureParams params;
+  params.width = params.height = 4;
+  const Vec3 n = -glm::normalize(2.0f * Vec3(204, 128, 230) / 255.0f - 1.0f);
+  const float e = 100 - 50 * n.x + 7 * n.y + 30 * (n.z + 1);
+  expect_all(view.render(look_at({0, 0, -2}, {0, 0, 0}), mix, mix_pages(package, mix), params, {}, nullptr,
+                         {}, mix_components(package, mix)),
+             Rgb(0.5f * kInvPi * e));
+}
+
 }  // namespace
 }  // namespace sconce

@@ -7,6 +7,10 @@ namespace sconce {
 View::View(const Package& package)
     : package_(&package), shown_(package), tracer_(shown_.scene, shown_.world) {}
 
+bool View::sees_normal_maps() const {
+  return package_->manifest().basis == Basis::sh1 && scene().has_normal_maps();
+}
+
 Camera View::camera(std::string_view name, const Progress& progress) const {
   if (const Camera* found = find_camera(scene(), name)) return *found;
   progress.warn("the scene has no camera: looking from a corner at eye height");

@@ -44,6 +44,7 @@ Mesh make_mesh(const World& world, const Atlas& atlas, const Part& part, const M
   // Without any normals a mesh stays without: face normals. Where only some are missing, corners get their
   // face's.
   bool any_normal = false;
+  const bool any_tangent = !source.tangents.empty();
   for (const uint32_t t : part.triangles)
     for (const uint32_t v : world.triangles[t].v) any_normal = any_normal || world.normals[v] != Vec3(0);
 
@@ -59,6 +60,11 @@ Mesh make_mesh(const World& world, const Atlas& atlas, const Part& part, const M
                                                   static_cast<uint32_t>(mesh.positions.size()));
       if (fresh) {
         mesh.positions.push_back(world.positions[v]);
+        if (any_tangent) {
+          // The back's normals are the front's, all of their frame turned round.
+          const glm::vec4& tangent = world.tangents[v];
+          mesh.tangents.push_back(sign * tangent);
+        }
         if (any_normal)
           mesh.normals.push_back(sign * (own_normal ? world.face_normals[t] : world.normals[v]));
         for (std::size_t s = 0; s < sets; ++s) mesh.texcoords[s].push_back(world.texcoords[s][v]);

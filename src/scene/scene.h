@@ -3,6 +3,7 @@
 // Units: metres; lamps in cd (point, spot), lux (sun), cd/m2 (emission, sky); colours linear Rec. 709.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -46,6 +47,8 @@ struct Material {
   TextureUse metallic_roughness_texture;  ///< metallic in blue, roughness in green
   Rgb emission;                           ///< cd/m2, strength already multiplied in
   TextureUse emission_texture;
+  TextureUse normal_texture;  ///< in tangent space, x right, y up, z out, stored as (n + 1) / 2
+  float normal_scale = 1;     ///< of x and y
   enum class Alpha : uint8_t { opaque, mask, blend } alpha_mode = Alpha::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
@@ -63,6 +66,7 @@ struct Mesh {
   Id<Material> material;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;                 ///< empty = face normals
+  std::vector<glm::vec4> tangents;           ///< empty = by texture coordinates; w = sign of the bitangent
   std::vector<std::vector<Vec2>> texcoords;  ///< set -> vertex
   std::vector<Triangle> triangles;
 };
@@ -149,6 +153,10 @@ struct Scene {
   const LightGroup& operator[](Id<LightGroup> id) const { return get(groups, id); }
   const Camera& operator[](Id<Camera> id) const { return get(cameras, id); }
 
+  bool has_normal_maps() const {
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const Material& m) { return m.normal_texture.texture.valid(); });
+  }
   bool emits(const Instance& instance) const { return (*this)[(*this)[instance.mesh].material].emits(); }
 };
 

@@ -68,7 +68,8 @@ class Validator {
 
   void check(Material& m) {
     const std::string what = "material " + quoted(m.name);
-    for (TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture}) {
+    for (TextureUse* use :
+         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
       if (use->texture)
         check_id(use->texture, scene_.textures.size(), scene_.name + ": " + what + ": texture");
       if (!finite(use->offset) || !finite(use->scale) || !finite(use->rotation)) {
@@ -76,6 +77,7 @@ class Validator {
         warn(what + " has a texture transform that is not a number; it is ignored");
       }
     }
+    if (!finite(m.normal_scale)) m.normal_scale = 1;
     mend(m.base_color, what + ": base colour");
     mend(m.emission, what + ": emission");
     const auto clamp = [&](float& v, const char* name) {
@@ -102,6 +104,9 @@ class Validator {
     if (!mesh.normals.empty() && mesh.normals.size() != count)
       throw Error(
           where, std::to_string(mesh.normals.size()) + " normals for " + std::to_string(count) + " vertices");
+    if (!mesh.tangents.empty() && mesh.tangents.size() != count)
+      throw Error(where, std::to_string(mesh.tangents.size()) + " tangents for " + std::to_string(count) +
+                             " vertices");
     for (const auto& set : mesh.texcoords)
       if (!set.empty() && set.size() != count)
         throw Error(where, std::to_string(set.size()) + " texture coordinates for " + std::to_string(count) +
@@ -120,6 +125,8 @@ class Validator {
       if (!finite(p)) p = Vec3(0);
     for (Vec3& n : mesh.normals)
       if (!finite(n)) n = Vec3(0);
+    for (glm::vec4& t : mesh.tangents)
+      if (!finite(Vec3(t)) || !finite(t.w)) t = glm::vec4(0);
     for (auto& set : mesh.texcoords)
       for (Vec2& uv : set)
         if (!finite(uv)) uv = Vec2(0);
@@ -150,7 +157,7 @@ class Validator {
       const Mesh& mesh = scene_[instance.mesh];
       const Material& m = scene_[mesh.material];
       for (const TextureUse* use :
-           {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture}) {
+           {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
         if (!use->texture ||
             (use->texcoord < mesh.texcoords.size() && !mesh.texcoords[use->texcoord].empty()))
           continue;

@@ -18,7 +18,11 @@ bool finite(const Vec3& v) {
 World make_world(const Scene& scene) {
   World world;
   std::size_t sets = 0;
-  for (const Mesh& mesh : scene.meshes) sets = std::max(sets, mesh.texcoords.size());
+  bool tangents = false;
+  for (const Mesh& mesh : scene.meshes) {
+    sets = std::max(sets, mesh.texcoords.size());
+    tangents |= !mesh.tangents.empty();
+  }
   world.texcoords.resize(sets);
 
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -34,6 +38,10 @@ World make_world(const Scene& scene) {
       world.positions.push_back(Vec3(instance.transform * glm::vec4(mesh.positions[v], 1.0f)));
       const Vec3 n = v < mesh.normals.size() ? cofactors * mesh.normals[v] : Vec3(0);
       world.normals.push_back(normalize_or(mirrored ? -n : n, Vec3(0)));
+      if (tangents) {
+        const glm::vec4 t = v < mesh.tangents.size() ? mesh.tangents[v] : glm::vec4(0);
+        world.tangents.emplace_back(normalize_or(linear * Vec3(t), Vec3(0)), mirrored ? -t.w : t.w);
+      }
       for (std::size_t s = 0; s < sets; ++s) {
         const bool has = s < mesh.texcoords.size() && v < mesh.texcoords[s].size();
         world.texcoords[s].push_back(has ? mesh.texcoords[s][v] : Vec2(0));

@@ -10,7 +10,8 @@ namespace sconce {
 
 struct World {
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;  ///< per vertex, unit; zero = use the face normal
+  std::vector<Vec3> normals;        ///< per vertex, unit; zero = use the face normal
+  std::vector<glm::vec4> tangents;  ///< per vertex, xyz unit or zero = none; empty where no mesh has any
   std::vector<std::vector<Vec2>>
       texcoords;                    ///< set -> vertex; as many sets as any mesh has, zero where it has none
   std::vector<Triangle> triangles;  ///< wound counter-clockwise from the front, mirrored instances too
@@ -39,6 +40,11 @@ struct Texel {
   float alpha = 1;
 };
 Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool srgb);
+
+/// The normal that a material's normal map gives minus World::normal(), on the front; 0 where there is no
+/// map. On the back it is the opposite. Tangents are the mesh's; where it has none, the direction in which
+/// the map's u grows on the triangle.
+Vec3 normal_offset(const Scene& scene, const World& world, std::size_t triangle, Vec2 barycentric);
 
 /// Material at a point. Base colour after texture; metals keep it as diffuse reflectance in bounces
 /// (contract.md).

@@ -17,8 +17,10 @@ constexpr const char* kChannel[] = {"r", "g", "b", "a"};
 class Composer {
  public:
   explicit Composer(const ShaderSpec& spec) : spec_(spec) {
-    for (const LayerTexture& texture : spec.textures)
-      encodings_.push_back(tier_encoding(*spec.tier, texture.encoding));
+    for (const LayerTexture& texture : spec.textures) {
+      encodings_.push_back(tier_encoding(*spec.tier, texture.encoding, texture.coefficient > 0));
+      directional_ |= !by_texel() && texture.coefficient > 0;
+    }
     share_samplers();
   }
 
@@ -26,6 +28,9 @@ class Composer {
     const bool whole = spec_.form != ShaderSpec::Form::functions;
     if (spec_.form == ShaderSpec::Form::compute && !spec_.target->compute)
       throw Error({}, std::string(spec_.target->name) + " has no compute shaders", "glsl450");
+    for (const LayerTexture& texture : spec_.textures)
+      if (by_texel() && texture.coefficient != spec_.textures.front().coefficient)
+        throw Error({}, "an atlas is mixed for one coefficient at a time");
     if (whole) text_ += spec_.target->head;
     text_ +=
         fmt::format("// Mixes {} light groups out of {} textures.\n\n", spec_.groups, spec_.textures.size());
@@ -164,8 +169,9 @@ class Composer {
   void mix_function() {
     const bool texel = by_texel();
     text_ += fmt::format(
-        "// Illuminance in lux.\nvec3 sconce_illuminance({}, int page) {{\n  vec3 sum = vec3(0.0);\n",
-        texel ? "ivec2 at" : "vec2 uv");
+        "// Illuminance in lux{}.\nvec3 sconce_illuminance({}, int page{}) {{\n  vec3 sum = vec3(0.0);\n",
+        directional_ ? "; offset: the mapped normal minus the surface's, world space" : "",
+        texel ? "ivec2 at" : "vec2 uv", directional_ ? ", vec3 offset" : "");
     if (std::any_of(spec_.textures.begin(), spec_.textures.end(),
                     [](const LayerTexture& t) { return t.encoding.luminance; }))
       text_ += "  vec4 y;\n";
@@ -174,14 +180,16 @@ class Composer {
       const std::string value =
           texel ? fmt::format("sconce_texel_{}(at, page)", t) : fmt::format("sconce_value_{}(uv, page)", t);
       if (!texture.encoding.luminance) {
-        text_ += fmt::format("  sum += sconce_weight[{}] * {}.rgb;\n", texture.groups.front(), value);
+        constexpr const char* kAlong[] = {"", "offset.x * ", "offset.y * ", "offset.z * "};
+        text_ += fmt::format("  sum += {}sconce_weight[{}] * {}.rgb;\n",
+                             kAlong[directional_ ? texture.coefficient : 0], texture.groups.front(), value);
         continue;
       }
       text_ += fmt::format("  y = {};\n", value);
       for (std::size_t i = 0; i < texture.groups.size(); ++i)
         text_ += fmt::format("  sum += sconce_weight[{}] * y.{};\n", texture.groups[i], kChannel[i]);
     }
-    text_ += "  return sum;\n}\n\n";
+    text_ += directional_ ? "  return max(sum, vec3(0.0));\n}\n\n" : "  return sum;\n}\n\n";
   }
 
   void main_function() {
@@ -212,9 +220,13 @@ class Composer {
                "\nuniform ToneParams sconce_tone;\n";
     text_ +=
         "uniform int sconce_page;\nuniform vec3 sconce_albedo, sconce_emission;  // cd/m2, weighted\n"
-        "uniform float sconce_exposure;\n\nin vec2 sconce_uv;\nout vec4 sconce_color;\n\nvoid main() {\n"
-        "  vec3 light = sconce_illuminance(sconce_uv, sconce_page);\n"
-        "  vec3 seen = (sconce_albedo * 0.318309886 * light + sconce_emission) * sconce_exposure;\n";
+        "uniform float sconce_exposure;\n\nin vec2 sconce_uv;\n";
+    if (directional_) text_ += "in vec3 sconce_offset;\n";
+    text_ += fmt::format(
+        "out vec4 sconce_color;\n\nvoid main() {{\n"
+        "  vec3 light = sconce_illuminance(sconce_uv, sconce_page{});\n",
+        directional_ ? ", sconce_offset" : "");
+    text_ += "  vec3 seen = (sconce_albedo * 0.318309886 * light + sconce_emission) * sconce_exposure;\n";
     text_ += spec_.tone != nullptr
                  ? "  sconce_color = vec4(linear_to_srgb(tone_map(seen, sconce_tone)), 1.0);\n}\n"
                  : "  sconce_color = vec4(seen, 1.0);\n}\n";
@@ -230,6 +242,7 @@ class Composer {
   std::vector<Place> first_;  ///< per texture: its first plane
   std::vector<std::string> gains_;
   bool arrays_ = false;
+  bool directional_ = false;  ///< holds textures of g
   std::string text_;
 };
 

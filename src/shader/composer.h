@@ -35,19 +35,21 @@ std::span<const ShaderTier> shader_tiers();
 /// @throws UsageError naming the choices
 const ShaderTier& find_shader_tier(std::string_view name);
 /// What is uploaded for an encoding: itself, halves for full floats, or 8-bit codes that hold as much.
-EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding);
+/// @param is_signed  as coefficients of a basis are
+EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding, bool is_signed = false);
 
 /// Texture units that a composed shader leaves to its host: maps of the surface, a tone table.
 inline constexpr int kReservedUnits = 4;
 
 struct ShaderSpec {
   enum class Form : uint8_t {
-    functions,  ///< vec3 sconce_illuminance(vec2 uv, int page) in lux, bilinear; no version line, no main
+    functions,  ///< vec3 sconce_illuminance(vec2 uv, int page) in lux, bilinear; no version line, no main.
+                ///< With textures of g: (vec2 uv, int page, vec3 offset), offset = n - n_s in world space
     picture,    ///< a fragment shader: tone(albedo / pi * E + emission), sRGB
-    atlas,      ///< a fragment shader that mixes one page texel by texel, in lux
+    atlas,      ///< a fragment shader that mixes one page of one coefficient texel by texel, in lux
     compute,    ///< the same as a compute shader
   } form = Form::picture;
-  std::vector<LayerTexture> textures;  ///< with gains for every page
+  std::vector<LayerTexture> textures;  ///< with gains for every page; of all coefficients that are wanted
   std::size_t groups = 0;              ///< weights
   int pages = 1;
   int units = 16;  ///< texture units of a fragment shader, at least 8; beyond, textures of a kind share
@@ -80,9 +82,9 @@ struct ComposedShader {
 
 /// Uniforms beside the samplers: vec3 sconce_weight[groups], the weight of each group times its colour where
 /// its luminance is packed. A picture also has vec3 sconce_albedo, vec3 sconce_emission (cd/m2, weighted),
-/// float sconce_exposure and ToneParams sconce_tone; atlas and compute have int sconce_page; a sampler2D
-/// tone_lut comes with a table.
-/// @throws Error when the target has no such form
+/// float sconce_exposure and ToneParams sconce_tone, and with textures of g the input vec3 sconce_offset;
+/// atlas and compute have int sconce_page; a sampler2D tone_lut comes with a table.
+/// @throws Error when the target has no such form, or coefficients are mixed that must stay apart
 ComposedShader compose(const ShaderSpec& spec);
 
 }  // namespace sconce

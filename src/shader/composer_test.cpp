@@ -45,6 +45,17 @@ ShaderSpec spec_of(const std::vector<EncodingChoice>& textures, int pages = 1) {
   return spec;
 }
 
+/// The same for the basis sh1: a texture per coefficient.
+ShaderSpec directional(ShaderSpec spec) {
+  const std::vector<LayerTexture> flat = spec.textures;
+  for (std::size_t c = 1; c < coefficients(Basis::sh1); ++c)
+    for (LayerTexture texture : flat) {
+      texture.coefficient = c;
+      spec.textures.push_back(std::move(texture));
+    }
+  return spec;
+}
+
 /// Texts that differ, for glslangValidator.
 class Shaders {
  public:
@@ -152,6 +163,39 @@ TEST(Composer, FunctionsStandAlone) {
   shaders.add_text("#version 330 core\n" + text +
                    "in vec2 uv; out vec3 lux; void main() { lux = sconce_illuminance(uv, 0); }\n");
   shaders.expect_valid();
+}
+
+/// Every signed encoding in every tier, plain and in arrays; what is uploaded for g is signed, too.
+TEST(Composer, DirectionalBasis) {
+  Shaders shaders;
+  for (const char* name : {"f32", "f16", "srgbe8"})
+    for (const std::size_t groups : {1u, 3u, 8u})
+      for (const ShaderTier& tier : shader_tiers())
+        for (const ShaderTarget& target : shader_targets()) {
+          ShaderSpec spec = directional(spec_of(std::vector(groups, parse_encoding(name)), 2));
+          spec.tier = &tier, spec.target = &target, spec.tone = &tone_mappers()[0];
+          const ComposedShader shader = compose(spec);
+          for (const ShaderSampler& sampler : shader.samplers)
+            for (const ShaderSampler::Slice& slice : sampler.slices)
+              EXPECT_TRUE(spec.textures[slice.texture].coefficient == 0 ||
+                          sampler.encoding.encoding->is_signed);
+          shaders.add_text(shader.text);
+        }
+  ShaderSpec spec = directional(spec_of({parse_encoding("f16")}));
+  spec.form = Form::functions;
+  const std::string text = compose(spec).text;
+  shaders.add_text("#version 330 core\n" + text +
+                   "in vec2 uv; in vec3 offset; out vec3 lux;\n"
+                   "void main() { lux = sconce_illuminance(uv, 0, offset); }\n");
+  for (const char* term :
+       {"offset.x * sconce_weight[0]", "offset.y * sconce_weight[0]", "max(sum, vec3(0.0))"})
+    EXPECT_NE(text.find(term), std::string::npos) << term;
+  shaders.expect_valid();
+
+  spec.form = Form::atlas;
+  EXPECT_THROW(compose(spec), Error) << "coefficients must not be summed";
+  spec.textures.erase(spec.textures.begin(), spec.textures.begin() + 3);
+  EXPECT_EQ(compose(spec).text.find("max(sum"), std::string::npos) << "g is signed";
 }
 
 TEST(Composer, ArraysWhereUnitsEnd) {

@@ -51,11 +51,11 @@ const ShaderTier& find_shader_tier(std::string_view name) {
   return find(shader_tiers(), name, "tier");
 }
 
-EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding) {
+EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding, bool is_signed) {
   const auto with = [&](const char* name) {
     return EncodingChoice{&find_encoding(name), encoding.luminance};
   };
-  const char* const eight_bits = encoding.luminance ? "multi8" : "rgbe8";
+  const char* const eight_bits = encoding.luminance ? "multi8" : is_signed ? "srgbe8" : "rgbe8";
   switch (encoding.encoding->type) {
     case TexelType::f32:
       return tier.f32 ? encoding : with(tier.f16 ? "f16" : eight_bits);

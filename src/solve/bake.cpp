@@ -24,13 +24,14 @@ void bake_tiles(const Solver& solver, const BakeParams& params, const TexelRecei
   parallel_for(tiles.size(), 1, [&](std::size_t k) {
     progress.check();
     const std::size_t tile = tiles[k], first = tile * TexelReceivers::kTile, count = state.receivers_of(tile);
-    std::vector<GroupValue> values(state.header().groups * count), one(wanted.size());
+    std::vector<GroupValue> values(state.header().layers * count),
+        one(wanted.size() * coefficients(params.basis));
     for (std::size_t i = 0; i < count; ++i) {
       if (i % 16 == 0) progress.check();
       solver.solve(receivers.footprint(first + i), one);
       std::size_t at = i;
-      for (std::size_t g = 0; g < wanted.size(); ++g)
-        if (wanted[g] != 0) values[std::exchange(at, at + count)] = one[g];
+      for (std::size_t g = 0; g < one.size(); ++g)
+        if (wanted[g % wanted.size()] != 0) values[std::exchange(at, at + count)] = one[g];
     }
     state.append(tile, with, values);
     progress.at("bake", ++done, tiles.size());
@@ -50,14 +51,14 @@ std::vector<std::size_t> missing_tiles(std::span<const BakeState> states, const 
 }
 
 std::vector<GroupValue> collect_values(std::span<const BakeState> states, const BakeParams& params,
-                                       uint32_t group) {
+                                       uint32_t layer) {
   const std::string with = made_with(params);
   std::vector<GroupValue> all;
   for (std::size_t tile = 0; tile < states.front().tiles(); ++tile) {
     const BakeState* source = nullptr;
     for (const BakeState& state : states)
       if (state.has(tile) && state.made_with(tile) == with) source = &state;
-    const std::vector<GroupValue> values = source->read(tile, group);
+    const std::vector<GroupValue> values = source->read(tile, layer);
     all.insert(all.end(), values.begin(), values.end());
   }
   return all;

@@ -33,19 +33,19 @@ constexpr float kMostDoubt = 16, kLeastDoubt = 0.05f;
 
 class Filter {
  public:
-  Filter(const TexelGraph& graph, std::span<const std::vector<GroupValue>> values)
-      : graph_(graph), groups_(values.size()), raw_(graph.size() * groups_) {
-    for (std::size_t g = 0; g < groups_; ++g)
-      for (std::size_t i = 0; i < graph.size(); ++i) raw_[i * groups_ + g] = values[g][i];
+  Filter(const TexelGraph& graph, std::span<const std::vector<GroupValue>> values, std::size_t guides)
+      : graph_(graph), layers_(values.size()), groups_(guides), raw_(graph.size() * layers_) {
+    for (std::size_t l = 0; l < layers_; ++l)
+      for (std::size_t i = 0; i < graph.size(); ++i) raw_[i * layers_ + l] = values[l][i];
     // The largest of n squared normal numbers is about 2 ln n.
     free_ = 2 * std::log(static_cast<float>(groups_));
     smooth_variances();
   }
 
   std::vector<std::vector<GroupValue>> run(const Progress& progress) {
-    std::vector<std::vector<GroupValue>> out(groups_, std::vector<GroupValue>(graph_.size()));
+    std::vector<std::vector<GroupValue>> out(layers_, std::vector<GroupValue>(graph_.size()));
     for (const Pass& pass : kPasses) {
-      std::vector<Guide> next(raw_.size());
+      std::vector<Guide> next(guides_.size());
       for_each_texel(progress, [&](std::size_t i, TexelWalk& walk, std::vector<double>& weights) {
         filter(i, pass, walk, weights, out, next);
       });
@@ -69,21 +69,21 @@ class Filter {
   // Eight batches tell a texel's error to a quarter only, and a texel that missed what is rare believes in 0:
   // its neighbours know better. But one in the shadow is not as noisy as what lies in the light beside it.
   void smooth_variances() {
-    variances_.resize(raw_.size());
-    guides_.resize(raw_.size());
+    variances_.resize(graph_.size() * groups_);
+    guides_.resize(variances_.size());
     for_each_texel({}, [&](std::size_t i, TexelWalk& walk, std::vector<double>&) {
       const std::span<const TexelStep> steps = walk.around(i, kVarianceRadius);
       for (std::size_t g = 0; g < groups_; ++g) {
         float sum = 0, weight = 0;
         for (const TexelStep& step : steps) {
-          const float error = raw_[step.node * groups_ + g].error;
+          const float error = raw_[step.node * layers_ + g].error;
           sum += step.weight * error * error;
           weight += step.weight;
         }
-        const float mean = sum / weight, own = raw_[i * groups_ + g].error;
+        const float mean = sum / weight, own = raw_[i * layers_ + g].error;
         const float variance = std::min(mean, kMostDoubt * own * own + kLeastDoubt * mean);
         variances_[i * groups_ + g] = variance;
-        guides_[i * groups_ + g] = {luminance(raw_[i * groups_ + g].illuminance), variance};
+        guides_[i * groups_ + g] = {luminance(raw_[i * layers_ + g].illuminance), variance};
       }
     });
   }
@@ -93,10 +93,8 @@ class Filter {
     const auto own = [&](auto& table) { return std::span(table).subspan(i * groups_, groups_); };
     const std::span<const float> variances = own(variances_);
     if (std::all_of(variances.begin(), variances.end(), [](float v) { return v == 0; })) {
-      for (std::size_t g = 0; g < groups_; ++g) {
-        out[g][i] = raw_[i * groups_ + g];
-        next[i * groups_ + g] = {luminance(raw_[i * groups_ + g].illuminance), 0};
-      }
+      for (std::size_t l = 0; l < layers_; ++l) out[l][i] = raw_[i * layers_ + l];
+      for (std::size_t g = 0; g < groups_; ++g) next[i * groups_ + g] = {luminance(out[g][i].illuminance), 0};
       return;
     }
     const std::span<const TexelStep> steps = walk.around(i, pass.radius);
@@ -104,22 +102,23 @@ class Filter {
     for (const TexelStep& step : steps)
       weights.push_back(static_cast<double>(step.weight * likeness(i, step.node, pass.free)));
     centre(steps, weights);
-    for (std::size_t g = 0; g < groups_; ++g) {
+    for (std::size_t l = 0; l < layers_; ++l) {
+      const bool guide = l < groups_;
       double rgb[3] = {0, 0, 0}, error = 0, variance = 0;
       for (std::size_t k = 0; k < steps.size(); ++k) {
-        const std::size_t at = steps[k].node * groups_ + g;
+        const std::size_t at = steps[k].node * layers_ + l;
         const double w = weights[k], e = static_cast<double>(raw_[at].error);
         rgb[0] += w * static_cast<double>(raw_[at].illuminance.r);
         rgb[1] += w * static_cast<double>(raw_[at].illuminance.g);
         rgb[2] += w * static_cast<double>(raw_[at].illuminance.b);
         error += w * w * e * e;
-        variance += w * w * static_cast<double>(variances_[at]);
+        if (guide) variance += w * w * static_cast<double>(variances_[steps[k].node * groups_ + l]);
       }
-      GroupValue& value = out[g][i];
+      GroupValue& value = out[l][i];
       value.illuminance =
           Rgb(static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]));
       value.error = static_cast<float>(std::sqrt(error));
-      next[i * groups_ + g] = {luminance(value.illuminance), static_cast<float>(variance)};
+      if (guide) next[i * groups_ + l] = {luminance(value.illuminance), static_cast<float>(variance)};
     }
   }
 
@@ -165,8 +164,8 @@ class Filter {
   }
 
   const TexelGraph& graph_;
-  std::size_t groups_;
-  std::vector<GroupValue> raw_;   ///< [texel * groups + group], as all tables here
+  std::size_t layers_, groups_;   ///< all; those that guide
+  std::vector<GroupValue> raw_;   ///< [texel * layers + layer]; the other tables: [texel * groups + group]
   float free_ = 0;                ///< what the largest difference of all groups exceeds by chance
   std::vector<float> variances_;  ///< of the raw values' luminance, smoothed
   std::vector<Guide> guides_;
@@ -176,8 +175,8 @@ class Filter {
 
 std::vector<std::vector<GroupValue>> denoise(const TexelGraph& graph,
                                              std::span<const std::vector<GroupValue>> values,
-                                             const Progress& progress) {
-  return Filter(graph, values).run(progress);
+                                             const Progress& progress, std::size_t guides) {
+  return Filter(graph, values, std::min(guides, values.size())).run(progress);
 }
 
 }  // namespace sconce

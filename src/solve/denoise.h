@@ -18,12 +18,15 @@ namespace sconce {
 /// decides, so a shadow edge of any group stops the filter for all, and
 ///   sum of denoised groups = denoised sum of groups
 /// to float rounding. Where the noise is 0 the values stay; as it goes to 0 so does the filter.
-/// @param values  per group and receiver: illuminance and its standard error
+/// @param values  per layer and receiver: illuminance and its standard error
+/// @param guides  so many layers, from the first on, make the weights (the groups' E); the others, further
+/// coefficients of a basis, are filtered with them
 /// @return        of the same form; the error is what the weights leave of the noise, sqrt(sum w^2 error^2),
 ///                without the filter's own bias. Same bits at any thread count.
 /// @throws Cancelled
 std::vector<std::vector<GroupValue>> denoise(const TexelGraph& graph,
                                              std::span<const std::vector<GroupValue>> values,
-                                             const Progress& progress = {});
+                                             const Progress& progress = {},
+                                             std::size_t guides = std::size_t(-1));
 
 }  // namespace sconce

@@ -7,6 +7,7 @@
 #include "core/sobol.h"
 #include "solve/pick.h"
 #include "solve/solver.h"
+#include "solve/sums.h"
 
 namespace sconce {
 
@@ -14,7 +15,8 @@ namespace sconce {
 struct NoCache {
   /// Adds to the sums throughput times the illuminance at the end of ray number `depth` (0: the receiver's),
   /// in place of the rest of the path. False: it cannot tell, the path goes on.
-  bool read(const Hit&, uint32_t /*depth*/, const Rgb& /*throughput*/, std::span<double> /*sums*/) {
+  template <class Sums>
+  bool read(const Hit&, uint32_t /*depth*/, const Rgb& /*throughput*/, const Sums& /*sums*/) {
     return false;
   }
 };
@@ -44,8 +46,9 @@ class PathKernel {
     }
   }
 
-  /// Adds one sample of E_g, lux, to sums[3 * group + channel].
-  void sample(const Footprint& receiver, uint32_t stream, uint32_t index, std::span<double> sums) {
+  /// Adds one sample of E_g, lux. @tparam Sums  of solve/sums.h
+  template <class Sums>
+  void sample(const Footprint& receiver, uint32_t stream, uint32_t index, Sums sums) {
     const uint32_t reversed = detail::reverse_bits(index);
     SurfacePoint at = receiver.sample(sobol_bits(reversed, kFootprintPair, stream).unit());
     Rgb throughput{1.0f};
@@ -58,7 +61,7 @@ class PathKernel {
       const SobolBits on_lamps = bits(2);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
         next_event(at, start, clearance, lamp, expected,
-                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, sums);
+                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, depth == 0, sums);
       });
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
@@ -66,6 +69,7 @@ class PathKernel {
       const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
+      if (depth == 0) sums.aim(direction, std::max(cosine, kGrazing));
       const Hit hit = rays_.closest({start, direction});
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
@@ -102,11 +106,17 @@ class PathKernel {
 
  private:
   static constexpr uint32_t kFootprintPair = 0xffffff00u;
+  /// g divides by the cosine that the receiver's rays are sampled with: light that comes in flatter than this
+  /// (2.9 degrees) counts less in g, so that its noise stays finite. Lamps that are sampled need no such
+  /// bound.
+  static constexpr float kGrazing = 0.05f;
 
   /// @param start      where rays leave the surface
   /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
+  /// @param first      at the receiver itself
+  template <class Sums>
   void next_event(const SurfacePoint& at, const Vec3& start, float clearance, uint32_t lamp, float expected,
-                  Vec2 u, const Rgb& throughput, std::span<double> sums) {
+                  Vec2 u, const Rgb& throughput, bool first, Sums& sums) {
     if (wanted_[lamp] == 0) return;
     LightSample light;
     if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
@@ -114,16 +124,15 @@ class PathKernel {
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
     const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
     if (end > 0 && rays_.occluded({start, light.direction, end})) return;
+    if (first) sums.aim(light.direction, cosine);
     const float density = light.delta ? expected : expected * light.pdf + cosine * kInvPi;
     add(sums, lamp, throughput * light.radiance * (cosine / density));
   }
 
-  void add(std::span<double> sums, uint32_t lamp, const Rgb& value) {
-    if (wanted_[lamp] == 0) return;
-    const std::size_t g = 3 * static_cast<std::size_t>(lamps_.all()[lamp].group.value);
-    sums[g] += static_cast<double>(value.r);
-    sums[g + 1] += static_cast<double>(value.g);
-    sums[g + 2] += static_cast<double>(value.b);
+  template <class Sums>
+  void add(const Sums& sums, uint32_t lamp, const Rgb& value) {
+    if (wanted_[lamp] != 0)
+      sums.add(3 * static_cast<std::size_t>(lamps_.all()[lamp].group.value), value.r, value.g, value.b);
   }
 
   const Scene& scene_;
@@ -139,48 +148,54 @@ class PathKernel {
 };
 
 /// All samples of one receiver, in batches; shared by the solver and the benchmark that replays its rays.
-/// @param out  one per group
+/// @param out  as Solver::solve
 template <class Kernel>
 void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams& params,
                     std::span<GroupValue> out) {
-  const std::size_t groups = out.size();
+  const std::size_t values = out.size(), groups = values / coefficients(params.basis);
   const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));
-  std::vector<double> sums(kBatches * 3 * groups, 0.0);
-  std::vector<double> luma(kBatches * (groups + 1));
+  std::vector<double> sums(kBatches * 3 * values, 0.0);
+  std::vector<double> luma(kBatches * values);
   const auto batch = [&](int b) {
-    return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * groups, 3 * groups);
+    return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * values, 3 * values);
+  };
+  const auto sample = [&](uint32_t stream, uint32_t index, std::span<double> into) {
+    if (params.basis == Basis::flat)
+      kernel.sample(receiver, stream, index, FlatSums{into});
+    else
+      kernel.sample(receiver, stream, index, Sh1Sums(into));
   };
   uint32_t done = 0;
   // Rounds double, so that every stop leaves a whole power of two per batch.
   for (uint32_t round = params.noise > 0 ? std::min(most, 2u) : most;; round = std::min(most, 2 * round)) {
     for (int b = 0; b < kBatches; ++b) {
       const uint32_t stream = mix32(mix32(params.seed, static_cast<uint32_t>(b)), receiver.id);
-      for (uint32_t i = done; i < round; ++i) kernel.sample(receiver, stream, i, batch(b));
+      for (uint32_t i = done; i < round; ++i) sample(stream, i, batch(b));
     }
     done = round;
     double mean_total = 0, squares_total = 0;
-    for (std::size_t g = 0; g < groups; ++g) {
+    for (std::size_t g = 0; g < values; ++g) {
       double rgb[3] = {0, 0, 0}, squares = 0;
       for (int b = 0; b < kBatches; ++b) {
         const auto s = batch(b);
-        double& l = luma[static_cast<std::size_t>(b) * (groups + 1) + g];
+        double& l = luma[static_cast<std::size_t>(b) * values + g];
         for (std::size_t c = 0; c < 3; ++c) rgb[c] += s[3 * g + c];
         l = (0.2126 * s[3 * g] + 0.7152 * s[3 * g + 1] + 0.0722 * s[3 * g + 2]) / done;
       }
       const double n = static_cast<double>(done) * kBatches;
       const double mean = (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]) / n;
       for (int b = 0; b < kBatches; ++b) {
-        const double d = luma[static_cast<std::size_t>(b) * (groups + 1) + g] - mean;
+        const double d = luma[static_cast<std::size_t>(b) * values + g] - mean;
         squares += d * d;
       }
       out[g].illuminance =
           Rgb(static_cast<float>(rgb[0] / n), static_cast<float>(rgb[1] / n), static_cast<float>(rgb[2] / n));
       out[g].error = static_cast<float>(std::sqrt(squares / (kBatches * (kBatches - 1))));
-      mean_total += mean;
+      if (g < groups) mean_total += mean;
     }
     for (int b = 0; b < kBatches; ++b) {
       double l = -mean_total;
-      for (std::size_t g = 0; g < groups; ++g) l += luma[static_cast<std::size_t>(b) * (groups + 1) + g];
+      for (std::size_t g = 0; g < groups; ++g) l += luma[static_cast<std::size_t>(b) * values + g];
       squares_total += l * l;
     }
     const double error_total = std::sqrt(squares_total / (kBatches * (kBatches - 1)));

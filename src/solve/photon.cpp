@@ -24,16 +24,14 @@ std::size_t photon_count(const SolveContext& context, const BakeParams& params) 
   return std::clamp<std::size_t>(4 * context.receivers->size(), 1 << 19, 1 << 22);
 }
 
-/// Adds flux x scale x throughput of the photons to sums[3 * group + channel].
-void add(const PhotonMap& map, const PhotonMap::Density& density, const Rgb& throughput,
-         std::span<double> sums) {
+/// Adds flux x scale x throughput of the photons. @tparam Sums  of solve/sums.h
+template <class Sums>
+void add(const PhotonMap& map, const PhotonMap::Density& density, const Rgb& throughput, const Sums& sums) {
   const Rgb factor = throughput * density.scale;
   for (const auto& [distance2, i] : density.nearest) {
     const Photon& photon = map[i];
-    const std::size_t g = 3 * static_cast<std::size_t>(photon.group.value);
-    sums[g] += static_cast<double>(factor.r * photon.flux.r);
-    sums[g + 1] += static_cast<double>(factor.g * photon.flux.g);
-    sums[g + 2] += static_cast<double>(factor.b * photon.flux.b);
+    sums.add(3 * static_cast<std::size_t>(photon.group.value), factor.r * photon.flux.r,
+             factor.g * photon.flux.g, factor.b * photon.flux.b);
   }
 }
 
@@ -43,7 +41,8 @@ class MapReader {
   MapReader(const World& world, const PhotonMap& map, int bounces)
       : world_(world), map_(map), bounces_(bounces) {}
 
-  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, std::span<double> sums) {
+  template <class Sums>
+  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, const Sums& sums) {
     const Vec3 normal = world_.face_normals[hit.triangle];
     PhotonMap::Query query{world_.position(hit.triangle, hit.barycentric), hit.back ? -normal : normal,
                            kGathered};
@@ -97,7 +96,7 @@ class PhotonSolver final : public Solver {
       const SurfacePoint at = receiver.sample(sobol_pair(b, 0, mix32(params_.seed, receiver.id)));
       map_.density({at.position, at.geometric_normal, kSeen, 1}, density);
       std::fill(sums.begin(), sums.end(), 0.0);
-      add(map_, density, Rgb(1.0f), sums);
+      add(map_, density, Rgb(1.0f), FlatSums{sums});
       for (std::size_t i = 0; i < sums.size(); ++i) mean[i] += sums[i] / kBatches;
       for (std::size_t g = 0; g < out.size(); ++g) squares[g] += luma(sums, g) * luma(sums, g) / kBatches;
     }

@@ -35,18 +35,17 @@ struct RadiosityCache {
   const float *first = nullptr, *second = nullptr;
   int bounces = -1;
 
-  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, std::span<double> sums) const {
+  template <class Sums>
+  bool read(const Hit& hit, uint32_t depth, const Rgb& throughput, const Sums& sums) const {
     if (depth >= 2 && bounces >= 0) return false;
     const uint32_t cell = cloud->cell(hit);
     const Owner owner = cloud->owner(cell);
     if (owner.trust != Trust::whole || hit.distance < kShort * cloud->spacing(owner.sample)) return false;
-    const float* light = direct + sums.size() * cell;
-    const float* more = (depth == 0 ? first : second) + sums.size() * owner.sample;
-    for (std::size_t g = 0; g < sums.size(); g += 3) {
-      sums[g] += static_cast<double>(throughput.r * (light[g] + more[g]));
-      sums[g + 1] += static_cast<double>(throughput.g * (light[g + 1] + more[g + 1]));
-      sums[g + 2] += static_cast<double>(throughput.b * (light[g + 2] + more[g + 2]));
-    }
+    const float* light = direct + sums.width() * cell;
+    const float* more = (depth == 0 ? first : second) + sums.width() * owner.sample;
+    for (std::size_t g = 0; g < sums.width(); g += 3)
+      sums.add(g, throughput.r * (light[g] + more[g]), throughput.g * (light[g + 1] + more[g + 1]),
+               throughput.b * (light[g + 2] + more[g + 2]));
     return true;
   }
 };
@@ -70,7 +69,7 @@ class RadiositySolver final : public Solver {
       auto kernel = std::make_shared<PathKernel<Tracer>>(context.scene, context.world, context.tracer,
                                                          context.lamps, 0, context.wanted);
       return [kernel](const SurfacePoint& at, uint32_t stream, std::span<double> sums) {
-        kernel->sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, sums);
+        kernel->sample(Footprint::point(0, ReceiverKind::gather, at), stream, 0, FlatSums{sums});
       };
     };
     const Gathered gathered =
@@ -123,7 +122,8 @@ class RadiositySolver final : public Solver {
         if (cloud_->owner(cell).trust != Trust::whole) continue;
         const Footprint footprint = cloud_->cell_footprint(cell);
         std::fill(sums.begin(), sums.end(), 0.0);
-        for (uint32_t s = 0; s < kDirectSamples; ++s) kernel.sample(footprint, mix32(seed, cell), s, sums);
+        for (uint32_t s = 0; s < kDirectSamples; ++s)
+          kernel.sample(footprint, mix32(seed, cell), s, FlatSums{sums});
         for (std::size_t g = 0; g < width; ++g)
           direct[width * c + g] = static_cast<float>(sums[g] / kDirectSamples);
       }

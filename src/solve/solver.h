@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "core/ranks.h"
 #include "core/receiver.h"
+#include "encode/basis.h"
 #include "light/lamp.h"
 #include "receive/atlas.h"
 #include "trace/tracer.h"
@@ -21,6 +22,7 @@ struct BakeParams {
   int samples = 256;  ///< paths per receiver, rounded up to a multiple of kBatches
   int bounces = -1;   ///< reflections before the receiver; 0 = direct only, -1 = unbounded
   uint32_t seed = 1;
+  Basis basis = Basis::flat;
   int cloud = 0;            ///< radiosity solver: gather samples; 0 = chosen by it
   double noise = 0;         ///< stop a receiver early when its relative standard error falls below; 0 = never
   std::size_t photons = 0;  ///< photon solver: emitted by all lamps together; 0 = by the number of texels
@@ -47,9 +49,9 @@ struct SolveContext {
   bool wants(Id<LightGroup> group) const { return wanted.empty() || wanted[group.value] != 0; }
 };
 
-/// One receiver's answer for one group.
+/// One receiver's answer for one group and one coefficient of the basis.
 struct GroupValue {
-  Rgb illuminance;  ///< lux per channel: E_g of contract.md
+  Rgb illuminance;  ///< lux per channel: E_g of contract.md, or a component of g (encode/basis.h)
   float error = 0;  ///< standard error of its luminance, lux
 };
 
@@ -59,7 +61,7 @@ class Solver {
   virtual ~Solver() = default;
   /// All groups of one receiver at once. Thread-safe; a pure function of the footprint (its id names the
   /// random numbers).
-  /// @param out  one per scene group
+  /// @param out  [coefficient * groups + group] of the scene's groups and the basis it was prepared for
   virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
   /// Another number of samples than it was prepared with, for a bake that learns only then how many its time
   /// allows. @return false: it has no such number

@@ -60,7 +60,7 @@ BakeState BakeState::create(const std::filesystem::path& path, const BakeHeader&
   put(head, header.hash);
   put(head, header.isa);
   put(head, header.job);
-  head.append(reinterpret_cast<const char*>(&header.groups), sizeof header.groups);
+  head.append(reinterpret_cast<const char*>(&header.layers), sizeof header.layers);
   head.append(reinterpret_cast<const char*>(&header.receivers), sizeof header.receivers);
   head.append(reinterpret_cast<const char*>(&header.tile_size), sizeof header.tile_size);
   if (std::fwrite(head.data(), head.size(), 1, state.file_) != 1 || std::fflush(state.file_) != 0)
@@ -81,7 +81,7 @@ BakeState BakeState::open(const std::filesystem::path& path) {
   if (!get(state.file_, magic) || std::memcmp(magic, kMagic, sizeof kMagic) != 0)
     throw Error(path.string(), "is not the state of a bake by this version");
   if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) ||
-      !get(state.file_, h.groups) || !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) ||
+      !get(state.file_, h.layers) || !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) ||
       h.tile_size == 0 || h.receivers > (1ull << 34))
     throw Error(path.string(), "the header is damaged");
   const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
@@ -99,7 +99,7 @@ void BakeState::scan() {
     std::string made_with;
     const bool whole = [&] {
       if (!get(file_, head) || head.magic != kRecord || head.tile >= tiles() || head.made_with_size > 4096 ||
-          head.values != receivers_of(head.tile) * header_.groups)
+          head.values != receivers_of(head.tile) * header_.layers)
         return false;
       made_with.resize(head.made_with_size);
       values.resize(head.values);
@@ -149,11 +149,11 @@ void BakeState::append(std::size_t tile, const std::string& made_with, std::span
   made_with_[tile] = made_with;
 }
 
-std::vector<GroupValue> BakeState::read(std::size_t tile, uint32_t group) const {
+std::vector<GroupValue> BakeState::read(std::size_t tile, uint32_t layer) const {
   const std::size_t count = receivers_of(tile);
   std::vector<GroupValue> values(count);
   const std::lock_guard lock(mutex_);
-  std::fseek(file_, static_cast<long>(offsets_[tile] + group * count * sizeof(GroupValue)), SEEK_SET);
+  std::fseek(file_, static_cast<long>(offsets_[tile] + layer * count * sizeof(GroupValue)), SEEK_SET);
   if (offsets_[tile] == 0 || std::fread(values.data(), sizeof(GroupValue), count, file_) != count)
     throw Error(path_.string(), "cannot be read");
   return values;

@@ -19,9 +19,9 @@ namespace sconce {
 /// What must agree for records to belong together, and `job`, free text from which the bake can be set up
 /// again.
 struct BakeHeader {
-  std::string hash;  ///< of scene, seed, solver, bounces, atlas, basis, version (contract.md); not samples
-  std::string isa;   ///< instruction set the kernels ran on
-  uint32_t groups = 0;
+  std::string hash;     ///< of scene, seed, solver, bounces, atlas, basis, version (contract.md); not samples
+  std::string isa;      ///< instruction set the kernels ran on
+  uint32_t layers = 0;  ///< groups x coefficients of the basis
   uint64_t receivers = 0;
   uint32_t tile_size = 0;
   std::string job;
@@ -44,10 +44,10 @@ class BakeState {
   /// Options the tile's record was made with (samples, noise); a record with others must be made again.
   const std::string& made_with(std::size_t tile) const { return made_with_[tile]; }
 
-  /// Appends and flushes a tile's record, values[group * count + i]. Thread-safe. @throws Error (disk full)
+  /// Appends and flushes a tile's record, values[layer * count + i]. Thread-safe. @throws Error (disk full)
   void append(std::size_t tile, const std::string& made_with, std::span<const GroupValue> values);
-  /// One group's values of a finished tile. Thread-safe.
-  std::vector<GroupValue> read(std::size_t tile, uint32_t group) const;
+  /// One layer's values of a finished tile. Thread-safe.
+  std::vector<GroupValue> read(std::size_t tile, uint32_t layer) const;
   std::size_t receivers_of(std::size_t tile) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace sconce {
 
-int samples_within(double seconds, Solver& solver, const TexelReceivers& receivers, std::size_t groups,
+int samples_within(double seconds, Solver& solver, const TexelReceivers& receivers, std::size_t values,
                    const std::function<double()>& now) {
   constexpr int kTrial = 2 * kBatches, kMost = 1 << 24;
   constexpr std::size_t kBlocks = 64;
@@ -17,11 +17,11 @@ int samples_within(double seconds, Solver& solver, const TexelReceivers& receive
   std::size_t tried = 0;
   double spent = 0;
   // Each turn takes other receivers, so that what one is like does not decide.
-  for (std::size_t turn = 0; spent < trial && turn < 1000; ++turn) {
+  for (std::size_t turn = 0; turn == 0 || (spent < trial && turn < 1000); ++turn) {
     const std::size_t count = std::min(receivers.size(), kBlocks << std::min<std::size_t>(turn, 8));
     const double start = now();
     parallel_for(count, 4, [&](std::size_t i) {
-      std::vector<GroupValue> out(groups);
+      std::vector<GroupValue> out(values);
       const std::size_t at = (i * receivers.size() + turn * 977) / count;
       solver.solve(receivers.footprint(at % receivers.size()), out);
     });

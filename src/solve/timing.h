@@ -11,9 +11,10 @@ namespace sconce {
 /// Samples per receiver that a solver gets done in about so many seconds on this machine: from a trial on
 /// receivers spread over the atlas, which takes a fiftieth of the time, at most a second.
 /// @param solver  takes any number of samples (Solver::set_samples); left with the trial's
+/// @param values  of a receiver: groups x coefficients of the basis
 /// @param now     seconds of a clock
 /// @return a multiple of kBatches, at least that
-int samples_within(double seconds, Solver& solver, const TexelReceivers& receivers, std::size_t groups,
+int samples_within(double seconds, Solver& solver, const TexelReceivers& receivers, std::size_t values,
                    const std::function<double()>& now);
 
 }  // namespace sconce

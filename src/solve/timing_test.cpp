@@ -40,6 +40,7 @@ TEST(SamplesWithin, FitsTheTime) {
     EXPECT_EQ(samples(seconds) % kBatches, 0);
   }
   EXPECT_EQ(samples(1e-9), kBatches) << "there is no less";
+  EXPECT_EQ(samples(0), kBatches) << "what came before took all the time";
 }
 
 }  // namespace
