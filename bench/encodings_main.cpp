@@ -62,7 +62,8 @@ void print_table(const std::string& path) {
         pages.push_back(package.layer(g, page));
         receivers.push_back(package.receivers(page));
       }
-      const EncodingChoice choice = choose_encoding(pages, receivers, m.groups[g].mean_lux, most);
+      const std::vector<std::span<const Image>> coefficients{pages};
+      const EncodingChoice choice = choose_encoding(coefficients, receivers, m.groups[g].mean_lux, most);
       megabytes += choice.bytes_per_texel() * texels;
       errors.push_back(worst_page(package, g, choice));
     }
