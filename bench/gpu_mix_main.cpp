@@ -8,8 +8,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "gpu/mix.h"
+#include "layers.h"
 #include "tone/tone.h"
 
 using namespace sconce;
@@ -18,34 +18,6 @@ namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;  // of the picture
 constexpr double kSeconds = 0.5;              // spent on each row
-
-/// Smooth light that differs by group, coloured.
-Image make_layer(std::size_t group, int width, int height) {
-  Image image = Image::rgb(width, height);
-  parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t y) {
-    for (int x = 0; x < width; ++x) {
-      const float t =
-          0.01f * (static_cast<float>(x) + 0.7f * static_cast<float>(y)) + static_cast<float>(group);
-      image.set_rgb(x, static_cast<int>(y), Rgb(1.5f + std::sin(t), 1.2f, 0.8f + 0.5f * std::cos(t)));
-    }
-  });
-  return image;
-}
-
-gpu::EncodedLayers make_layers(std::size_t groups, const char* encoding, int width, int height) {
-  gpu::EncodedLayers layers;
-  layers.textures = share_textures(std::vector(groups, parse_encoding(encoding)));
-  layers.colors.assign(groups, Rgb(1));
-  for (LayerTexture& texture : layers.textures) {
-    std::vector<Image> images;
-    std::vector<const Image*> pointers;
-    for (const std::size_t g : texture.groups) images.push_back(make_layer(g, width, height));
-    for (const Image& image : images) pointers.push_back(&image);
-    layers.images.push_back({texture.encode(pointers)});
-    texture.gain = {layers.images.back().front().gain};
-  }
-  return layers;
-}
 
 /// Seconds of one of many in a row, best of some rows. Timer queries mean nothing where the processor draws.
 template <class F>
@@ -163,7 +135,7 @@ void mix_table(const gpu::Context& context, double bandwidth, int side) {
     for (const char* encoding : {"f16", "rgbe8", "exp8", "lum:f16"}) {
       const std::vector<Rgb> weights(groups, Rgb(0.5f, 1, 0.75f));
       // Bytes as stored, read once; a picture or a page of halves written.
-      const gpu::EncodedLayers at_screen = make_layers(groups, encoding, kWidth, kHeight);
+      const EncodedLayers at_screen = make_layers(groups, parse_encoding(encoding), kWidth, kHeight);
       const double moved = static_cast<double>(at_screen.bytes()) + 8.0 * kWidth * kHeight;
       const std::string name = fmt::format("{} x {}", groups, encoding);
       const gpu::AtlasMix drawn(context, at_screen, tier);
@@ -172,7 +144,7 @@ void mix_table(const gpu::Context& context, double bandwidth, int side) {
       const gpu::AtlasMix computed(context, at_screen, tier, gpu::AtlasMix::Form::compute);
       print_row(name + ", 1920 x 1080 texels, compute",
                 device_seconds(context, [&] { computed.mix(weights); }), moved, bandwidth);
-      const gpu::EncodedLayers layers = make_layers(groups, encoding, side, side);
+      const EncodedLayers layers = make_layers(groups, parse_encoding(encoding), side, side);
       gpu::PixelMix pixel(context, layers, tier);
       pixel.set(weights);
       // A pixel looks at about one texel of each layer.
@@ -191,7 +163,7 @@ void paper_table(const gpu::Context& context, int side) {
   const ShaderTier& tier = find_shader_tier("full");
   const Screen screen(context);
   const auto pixel = [&](std::size_t groups, const char* encoding) {
-    gpu::PixelMix light(context, make_layers(groups, encoding, side, side), tier);
+    gpu::PixelMix light(context, make_layers(groups, parse_encoding(encoding), side, side), tier);
     light.set(std::vector<Rgb>(groups, Rgb(1)));
     return screen.seconds(light, true);
   };

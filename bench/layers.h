@@ -4,28 +4,31 @@
 
 #include <cmath>
 
+#include "core/parallel.h"
 #include "mix/mixer.h"
 
 /// Smooth light that differs by group.
-inline sconce::EncodedImage make_layer(std::size_t group, const sconce::Encoding& encoding, int side) {
-  sconce::Image image = sconce::Image::rgb(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      image.set_rgb(
-          x, y, sconce::Rgb(1.5f + std::sin(0.01f * static_cast<float>(x + y) + static_cast<float>(group))));
-  return encode(image, encoding);
+inline sconce::Image make_layer(std::size_t group, int width, int height) {
+  sconce::Image image = sconce::Image::rgb(width, height);
+  sconce::parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t y) {
+    for (int x = 0; x < width; ++x) {
+      const float t =
+          0.01f * (static_cast<float>(x) + 0.7f * static_cast<float>(y)) + static_cast<float>(group);
+      image.set_rgb(x, static_cast<int>(y), sconce::Rgb(1.5f + std::sin(t), 1.2f, 0.8f + 0.5f * std::cos(t)));
+    }
+  });
+  return image;
 }
 
-/// One square page per group.
+/// One page, white groups.
+inline sconce::EncodedLayers make_layers(std::size_t groups, const sconce::EncodingChoice& encoding,
+                                         int width, int height) {
+  return sconce::encode_layers(std::vector(groups, encoding), 1, std::vector(groups, sconce::Rgb(1)),
+                               [&](std::size_t group, int) { return make_layer(group, width, height); });
+}
+
 inline sconce::Mixer make_mixer(std::size_t groups, const sconce::Encoding& encoding, int side) {
-  std::vector<sconce::LayerTexture> textures;
-  std::vector<std::vector<sconce::EncodedImage>> pages;
-  for (std::size_t g = 0; g < groups; ++g) {
-    textures.push_back({{&encoding, false}, {g}, {}});
-    pages.push_back({make_layer(g, encoding, side)});
-  }
-  return sconce::Mixer(std::move(textures), std::move(pages),
-                       std::vector<sconce::Rgb>(groups, sconce::Rgb(1)));
+  return sconce::Mixer(make_layers(groups, {&encoding, false}, side, side));
 }
 
 inline sconce::MixSpec make_weights(std::size_t groups, float shift) {

@@ -9,6 +9,7 @@
 #include "gpu/mix.h"
 #include "gpu/view.h"
 #include "image/io.h"
+#include "mix/test_layers.h"
 #include "package/test_package.h"
 #include "picture/render.h"
 #include "process.h"
@@ -73,42 +74,11 @@ TEST_F(GlPictures, OurBathroom) {
 }
 
 /// The package's layers in another encoding.
-gpu::EncodedLayers encoded_as(const Package& package, const EncodingChoice& choice) {
-  const Manifest& m = package.manifest();
-  gpu::EncodedLayers layers;
-  layers.textures = share_textures(std::vector<EncodingChoice>(m.groups.size(), choice));
-  for (const GroupInfo& group : m.groups) layers.colors.push_back(choice.luminance ? group.color : Rgb(1));
-  for (LayerTexture& texture : layers.textures) {
-    layers.images.emplace_back();
-    for (int page = 0; page < m.pages; ++page) {
-      std::vector<Image> images;
-      std::vector<const Image*> pointers;
-      for (const std::size_t g : texture.groups) images.push_back(package.layer(g, page));
-      for (const Image& image : images) pointers.push_back(&image);
-      layers.images.back().push_back(texture.encode(pointers));
-      texture.gain.push_back(layers.images.back().back().gain);
-    }
-  }
-  return layers;
-}
-
-/// By the CPU, of the same codes.
-std::vector<Image> mixed(const gpu::EncodedLayers& layers, const MixSpec& mix) {
-  std::vector<Image> pages(static_cast<std::size_t>(layers.pages()),
-                           Image::rgb(layers.width(), layers.height()));
-  for (std::size_t t = 0; t < layers.textures.size(); ++t)
-    for (std::size_t i = 0; i < layers.textures[t].groups.size(); ++i) {
-      const std::size_t g = layers.textures[t].groups[i];
-      for (std::size_t page = 0; page < pages.size(); ++page) {
-        const Image layer = layers.textures[t].decode(layers.images[t][page], i, layers.colors[g]);
-        const Rgb& w = mix.weights[g];
-        for (std::size_t p = 0; p < layer.data.size(); p += 3) {
-          float* out = &pages[page].data[p];
-          out[0] += w.r * layer.data[p], out[1] += w.g * layer.data[p + 1], out[2] += w.b * layer.data[p + 2];
-        }
-      }
-    }
-  return pages;
+EncodedLayers encoded_as(const Package& package, const EncodingChoice& choice) {
+  std::vector<Rgb> colors;
+  for (const GroupInfo& group : package.manifest().groups) colors.push_back(group.color);
+  return encode_layers(std::vector(colors.size(), choice), package.manifest().pages, colors,
+                       [&](std::size_t g, int page) { return package.layer(g, page); });
 }
 
 TEST_F(GlPictures, EveryEncodingInEveryTier) {
@@ -127,13 +97,13 @@ TEST_F(GlPictures, EveryEncodingInEveryTier) {
   std::set<std::string> shaders;
   for (const char* name :
        {"f32", "f16", "exp8", "rgbe8", "srgbe8", "multi8", "bc6h", "lum:f16", "lum:exp8"}) {
-    const gpu::EncodedLayers stored = encoded_as(package, parse_encoding(name));
+    const EncodedLayers stored = encoded_as(package, parse_encoding(name));
     for (const ShaderTier& tier : shader_tiers()) {
       SCOPED_TRACE(std::string(name) + " " + std::string(tier.name));
-      const gpu::EncodedLayers layers = gpu::for_tier(stored, tier);
+      const EncodedLayers layers = gpu::for_tier(stored, tier);
       gpu::PixelMix light(context, layers, tier);
       if (!shaders.insert(light.glsl()).second) continue;  // 8-bit codes are the same in every tier
-      const Image expected = cpu.render(camera, mix, mixed(layers, mix), params);
+      const Image expected = cpu.render(camera, mix, plain_mix(layers, mix.weights), params);
       light.set(mix.weights);
       gl.draw(camera, mix.weights, light, params);
       EXPECT_GE(share_alike(tone_map(expected, exposure, agx), gl.toned(exposure, agx)), 0.995);

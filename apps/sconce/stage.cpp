@@ -83,7 +83,7 @@ class GlStage : public Stage {
         context_(std::move(context)),
         tier_(&(tier == "auto" ? gpu::tier_of(context_->capabilities()) : find_shader_tier(tier))),
         shown_(package),
-        layers_(gpu::for_tier(gpu::read_layers(package), *tier_)),
+        layers_(gpu::for_tier(read_layers(package), *tier_)),
         view_(*context_, shown_) {}
   std::string device() const override { return context_->capabilities().renderer; }
   const Scene& scene() const override { return shown_.scene; }
@@ -110,7 +110,7 @@ class GlStage : public Stage {
   std::unique_ptr<gpu::Context> context_;
   const ShaderTier* tier_;
   ShownScene shown_;
-  gpu::EncodedLayers layers_;
+  EncodedLayers layers_;
   gpu::View view_;
 };
 

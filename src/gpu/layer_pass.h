@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "gpu/encoded_layers.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "gpu/tiers.h"
 
 namespace sconce::gpu {
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "gpu/test_context.h"
+#include "mix/test_layers.h"
 
 namespace sconce::gpu {
 namespace {
@@ -26,24 +27,10 @@ Image layer(std::size_t g, int page) {
 }
 
 EncodedLayers layers_of(const std::vector<EncodingChoice>& choices, int pages) {
-  EncodedLayers layers;
-  layers.textures = share_textures(choices);
-  layers.colors.assign(choices.size(), Rgb(1));
-  for (LayerTexture& texture : layers.textures) {
-    layers.images.emplace_back();
-    for (int page = 0; page < pages; ++page) {
-      std::vector<Image> images;
-      std::vector<const Image*> pointers;
-      for (const std::size_t g : texture.groups) images.push_back(layer(g, page));
-      for (const Image& image : images) pointers.push_back(&image);
-      layers.images.back().push_back(texture.encode(pointers));
-      texture.gain.push_back(layers.images.back().back().gain);
-    }
-    if (texture.encoding.luminance)
-      for (const std::size_t g : texture.groups)
-        layers.colors[g] = {1.5f, 0.9f, 0.4f + 0.1f * static_cast<float>(g)};
-  }
-  return layers;
+  std::vector<Rgb> colors;
+  for (std::size_t g = 0; g < choices.size(); ++g)
+    colors.emplace_back(1.5f, 0.9f, 0.4f + 0.1f * static_cast<float>(g));
+  return encode_layers(choices, pages, colors, layer);
 }
 
 std::vector<Rgb> weights_of(std::size_t groups) {
@@ -52,22 +39,6 @@ std::vector<Rgb> weights_of(std::size_t groups) {
     weights.push_back(g == 1 ? Rgb(0)
                              : Rgb(1.0f / static_cast<float>(g + 1), 0.7f, 0.1f * static_cast<float>(g % 8)));
   return weights;
-}
-
-/// What the CPU makes of the same codes.
-std::vector<Image> expected_mix(const EncodedLayers& layers, const std::vector<Rgb>& weights) {
-  std::vector<Image> pages(static_cast<std::size_t>(layers.pages()), Image::rgb(kWidth, kHeight));
-  for (std::size_t t = 0; t < layers.textures.size(); ++t)
-    for (std::size_t i = 0; i < layers.textures[t].groups.size(); ++i) {
-      const std::size_t g = layers.textures[t].groups[i];
-      for (std::size_t page = 0; page < pages.size(); ++page) {
-        const Image decoded = layers.textures[t].decode(layers.images[t][page], i, layers.colors[g]);
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x)
-            pages[page].set_rgb(x, y, pages[page].rgb_at(x, y) + weights[g] * decoded.rgb_at(x, y));
-      }
-    }
-  return pages;
 }
 
 /// Relative to each value, but for rounding at the foot of the brightest.
@@ -129,7 +100,7 @@ class Mixing : public GlTest {
     for (const ShaderTier& tier : shader_tiers()) {
       SCOPED_TRACE(tier.name);
       const EncodedLayers layers = for_tier(layers_of(choices, pages), tier);
-      const std::vector<Image> expected = expected_mix(layers, weights);
+      const std::vector<Image> expected = plain_mix(layers, weights);
       PixelMix pixel(context_, layers, tier);
       pixel.set(weights);
       for (int page = 0; page < pages; ++page)
@@ -177,7 +148,7 @@ TEST_F(Mixing, AllEncodingsTogether) {
 TEST_F(Mixing, ManyLayersOnASmallDevice) {
   const std::vector<Rgb> weights = weights_of(40);
   const EncodedLayers layers = layers_of(std::vector<EncodingChoice>(40, parse_encoding("f16")), 2);
-  const std::vector<Image> expected = expected_mix(layers, weights);
+  const std::vector<Image> expected = plain_mix(layers, weights);
   const ShaderTier& full = find_shader_tier("full");
   Capabilities small = context_.capabilities();
   small.max_units = 16;

@@ -8,40 +8,15 @@
 
 namespace sconce {
 
-namespace {
-
-std::vector<std::vector<EncodedImage>> read_textures(const Package& package,
-                                                     const std::vector<LayerTexture>& textures) {
-  const auto pages = static_cast<std::size_t>(package.manifest().pages);
-  std::vector<std::vector<EncodedImage>> all(textures.size(), std::vector<EncodedImage>(pages));
-  parallel_for(textures.size() * pages, 1, [&](std::size_t i) {
-    all[i / pages][i % pages] = package.encoded(textures[i / pages], static_cast<int>(i % pages));
-  });
-  return all;
-}
-
-std::vector<Rgb> group_colors(const Manifest& m) {
-  std::vector<Rgb> colors;
-  for (const GroupInfo& group : m.groups) colors.push_back(group.color);
-  return colors;
-}
-
-}  // namespace
-
-Mixer::Mixer(const Package& package)
-    : Mixer(package.textures(), read_textures(package, package.textures()),
-            group_colors(package.manifest())) {}
-
-Mixer::Mixer(std::vector<LayerTexture> textures, std::vector<std::vector<EncodedImage>> pages,
-             std::vector<Rgb> colors)
-    : colors_(std::move(colors)) {
-  for (std::size_t t = 0; t < textures.size(); ++t) {
-    const std::size_t groups = textures[t].groups.size();
+Mixer::Mixer(EncodedLayers layers) : colors_(std::move(layers.colors)) {
+  for (std::size_t t = 0; t < layers.textures.size(); ++t) {
+    std::vector<EncodedImage>& pages = layers.images[t];
+    const std::size_t groups = layers.textures[t].groups.size();
     // Blocks are unpacked once; what they hold are halves.
-    if (pages[t].front().encoding->type == TexelType::bc6h)
-      for (EncodedImage& page : pages[t]) page = encode(decode(page), find_encoding("f16"));
-    textures_.push_back({std::move(textures[t]), WeighTables(*pages[t].front().encoding), std::move(pages[t]),
-                         std::vector<Rgb>(groups)});
+    if (pages.front().encoding->type == TexelType::bc6h)
+      for (EncodedImage& page : pages) page = encode(decode(page), find_encoding("f16"));
+    textures_.push_back({std::move(layers.textures[t]), WeighTables(*pages.front().encoding),
+                         std::move(pages), std::vector<Rgb>(groups)});
   }
   if (textures_.empty()) return;
   for (const EncodedImage& page : textures_.front().pages) {
@@ -66,7 +41,7 @@ const std::vector<Image>& Mixer::mix(const MixSpec& mix) {
     std::vector<Rgb> now, change;
     for (std::size_t i = 0; i < texture.layout.groups.size(); ++i) {
       const std::size_t g = texture.layout.groups[i];
-      now.push_back(texture.layout.encoding.luminance ? mix.weights[g] * colors_[g] : mix.weights[g]);
+      now.push_back(mix.weights[g] * colors_[g]);
       change.push_back(now.back() - texture.weights[i]);
     }
     const auto any = [](const std::vector<Rgb>& all) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "mix/encoded_layers.h"
 #include "mix/settings.h"
 #include "mix/weigh.h"
 
@@ -13,11 +14,8 @@ namespace sconce {
 class Mixer {
  public:
   /// Reads all layers. @throws as Package::encoded
-  explicit Mixer(const Package& package);
-  /// @param pages   per texture and page, all of one size
-  /// @param colors  per group, of luminance 1
-  Mixer(std::vector<LayerTexture> textures, std::vector<std::vector<EncodedImage>> pages,
-        std::vector<Rgb> colors);
+  explicit Mixer(const Package& package) : Mixer(read_layers(package)) {}
+  explicit Mixer(EncodedLayers layers);
 
   /// sum_g w_g * E_g per page, RGB lux. Where less than half of the textures have other weights than at the
   /// last call, only they are read and their differences added; every kRefresh such calls all is summed anew,
@@ -42,7 +40,7 @@ class Mixer {
            bool clear);
 
   std::vector<Texture> textures_;
-  std::vector<Rgb> colors_;  ///< per group, luminance 1
+  std::vector<Rgb> colors_;  ///< EncodedLayers::colors
   std::vector<Image> sum_;
   int updates_ = -1;  ///< since all was summed; -1: never
   std::size_t bytes_read_ = 0;

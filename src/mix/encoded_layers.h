@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A package's layers as they are stored, ready to be uploaded.
+// Layers in memory as they are stored: what the software mix sums and what a GPU takes.
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "gpu/context.h"
 #include "package/package.h"
-#include "shader/composer.h"
 
-namespace sconce::gpu {
+namespace sconce {
 
 struct EncodedLayers {
   std::vector<LayerTexture> textures;             ///< with gains
@@ -18,17 +17,19 @@ struct EncodedLayers {
   int width() const { return images.front().front().width; }
   int height() const { return images.front().front().height; }
   int pages() const { return static_cast<int>(images.front().size()); }
-  /// As uploaded: codes of all pages.
+  /// Codes of all pages.
   std::size_t bytes() const;
 };
 
-/// @throws Error as Package::encoded, or when there are no layers
+/// @throws as Package::encoded
 EncodedLayers read_layers(const Package& package);
 
-/// Layers of which this tier has no textures are encoded anew (tier_encoding).
-EncodedLayers for_tier(EncodedLayers layers, const ShaderTier& tier);
+/// Layers that are in no package.
+/// @param choices  per group
+/// @param colors   per group, of luminance 1; used where luminance is packed
+/// @param layer    RGB lux of a group on a page
+EncodedLayers encode_layers(const std::vector<EncodingChoice>& choices, int pages,
+                            const std::vector<Rgb>& colors,
+                            const std::function<Image(std::size_t group, int page)>& layer);
 
-/// The best tier of all that the device has.
-const ShaderTier& tier_of(const Capabilities& can);
-
-}  // namespace sconce::gpu
+}  // namespace sconce

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mix/encoded_layers.h"
+
+#include "core/parallel.h"
+
+namespace sconce {
+
+namespace {
+
+/// @param colors  of all groups
+void keep_packed(EncodedLayers& layers, const std::vector<Rgb>& colors) {
+  layers.colors.assign(colors.size(), Rgb(1));
+  for (const LayerTexture& texture : layers.textures)
+    if (texture.encoding.luminance)
+      for (const std::size_t g : texture.groups) layers.colors[g] = colors[g];
+}
+
+}  // namespace
+
+std::size_t EncodedLayers::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& pages : images)
+    for (const EncodedImage& image : pages) sum += image.data.size();
+  return sum;
+}
+
+EncodedLayers read_layers(const Package& package) {
+  EncodedLayers layers;
+  layers.textures = package.textures();
+  const auto pages = static_cast<std::size_t>(package.manifest().pages);
+  layers.images.assign(layers.textures.size(), std::vector<EncodedImage>(pages));
+  parallel_for(layers.textures.size() * pages, 1, [&](std::size_t i) {
+    layers.images[i / pages][i % pages] =
+        package.encoded(layers.textures[i / pages], static_cast<int>(i % pages));
+  });
+  std::vector<Rgb> colors;
+  for (const GroupInfo& group : package.manifest().groups) colors.push_back(group.color);
+  keep_packed(layers, colors);
+  return layers;
+}
+
+EncodedLayers encode_layers(const std::vector<EncodingChoice>& choices, int pages,
+                            const std::vector<Rgb>& colors,
+                            const std::function<Image(std::size_t, int)>& layer) {
+  EncodedLayers layers;
+  layers.textures = share_textures(choices);
+  for (LayerTexture& texture : layers.textures) {
+    layers.images.emplace_back();
+    for (int page = 0; page < pages; ++page) {
+      std::vector<Image> images;
+      std::vector<const Image*> pointers;
+      for (const std::size_t g : texture.groups) images.push_back(layer(g, page));
+      for (const Image& image : images) pointers.push_back(&image);
+      layers.images.back().push_back(texture.encode(pointers));
+      texture.gain.push_back(layers.images.back().back().gain);
+    }
+  }
+  keep_packed(layers, colors);
+  return layers;
+}
+
+}  // namespace sconce
