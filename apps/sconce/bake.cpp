@@ -227,9 +227,7 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   if (!(max_error > 0 && max_error < 1))
     throw UsageError("--max-error", fmt::format("{} is out of range", max_error), "above 0, below 100 %");
   job.max_error = max_error;
-  // Blocks of 4 x 4 texels must not mix two charts.
-  if (job.encoding.find("bc6h") != std::string::npos || job.encoding.find(kAutoEncoding) != std::string::npos)
-    job.atlas.gutter = 4;
+  if (job.may_use_blocks()) job.atlas.gutter = 4;
   if (noise > 0 && samples == 0) samples = samples_of("final");
   if (denoise != "on" && denoise != "off")
     throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");

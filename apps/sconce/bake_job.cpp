@@ -51,32 +51,36 @@ std::string bake_hash(const BakeJob& job, const Scene& scene, const TexelReceive
   return hash.hex();
 }
 
+/// `f16` or `ceiling=lum:f16`: which groups, and how. @throws UsageError
+struct EncodingPart {
+  std::string pattern = "*", name;
+
+  explicit EncodingPart(const std::string& text) : name(text) {
+    if (const std::size_t equals = text.rfind('='); equals != std::string::npos)
+      pattern = text.substr(0, equals), name = text.substr(equals + 1);
+    if (name != kAutoEncoding) name = parse_encoding(name).name();
+  }
+};
+
 /// The encoding of each group by `--encoding f16,ceiling=lum:f16`.
 std::vector<std::string> group_encodings(const std::string& text, Basis basis, const Scene& scene) {
   std::vector<std::string> result(scene.groups.size(), "f16");
-  for (const std::string& part : split(text, ',')) {
-    const std::size_t equals = part.rfind('=');
-    const std::string pattern = equals == std::string::npos ? "*" : part.substr(0, equals);
-    std::string name = equals == std::string::npos ? part : part.substr(equals + 1);
-    if (name != kAutoEncoding) {
-      const EncodingChoice choice = parse_encoding(name);
-      if (basis != Basis::flat && !signed_encoding(choice))
-        throw UsageError(
-            "--encoding",
-            choice.name() + " cannot hold the signed basis " + std::string(basis_row(basis).name),
-            "f32, f16, srgbe8, auto");
-      name = choice.name();
-    }
+  for (const std::string& piece : split(text, ',')) {
+    const EncodingPart part(piece);
+    if (part.name != kAutoEncoding && basis != Basis::flat && !signed_encoding(parse_encoding(part.name)))
+      throw UsageError("--encoding",
+                       part.name + " cannot hold the signed basis " + std::string(basis_row(basis).name),
+                       "f32, f16, srgbe8, auto");
     bool found = false;
     for (std::size_t g = 0; g < result.size(); ++g)
-      if (glob_match(pattern, scene.groups[g].name)) {
-        result[g] = name;
+      if (glob_match(part.pattern, scene.groups[g].name)) {
+        result[g] = part.name;
         found = true;
       }
     if (!found) {
       std::vector<std::string> names;
       for (const LightGroup& group : scene.groups) names.push_back(group.name);
-      throw UsageError("--encoding", "unknown group '" + pattern + "'", join(names, ", "));
+      throw UsageError("--encoding", "unknown group '" + part.pattern + "'", join(names, ", "));
     }
   }
   return result;
@@ -96,6 +100,14 @@ Atlas make_layout(const PreparedBake& bake, const Ranks& ranks, const Progress& 
 }
 
 }  // namespace
+
+bool BakeJob::may_use_blocks() const {
+  const std::vector<std::string> pieces = split(encoding, ',');
+  return std::any_of(pieces.begin(), pieces.end(), [](const std::string& piece) {
+    const std::string name = EncodingPart(piece).name;
+    return name == kAutoEncoding || parse_encoding(name).encoding->type == TexelType::bc6h;
+  });
+}
 
 std::string BakeJob::to_json() const {
   const nlohmann::json json = {{"scene", scene.string()},

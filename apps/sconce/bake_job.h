@@ -23,6 +23,8 @@ struct BakeJob {
   AtlasParams atlas;
   BakeParams params;
 
+  /// Whether some layer may be kept in blocks of 4 x 4 texels, which must not mix two charts.
+  bool may_use_blocks() const;
   std::string to_json() const;
   /// @throws Error naming `where`
   static BakeJob from_json(const std::string& text, const std::string& where);
