@@ -3,26 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "core/sobol.h"
-#include "light/lamp.h"
-#include "scene/groups.h"
+#include "light/test_rig.h"
 #include "scene/shapes.h"
 
 namespace sconce {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 constexpr uint32_t kParticles = 1 << 18;
 
 /// A dark 2 m cube in the origin (so that bounds are known) and one lamp.
-struct Rig {
-  Scene scene;
-  World world;
-  Lamps lamps;
-
-  explicit Rig(Scene s)
-      : scene((assign_groups(s, Grouping::automatic), std::move(s))),
-        world(make_world(scene)),
-        lamps(scene, world) {}
+struct Rig : LampRig {
+  using LampRig::LampRig;
 
   template <class F>
   void emit(F&& f) const {

@@ -2,24 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "core/sobol.h"
-#include "light/lamp.h"
-#include "scene/groups.h"
+#include "light/test_rig.h"
 #include "scene/shapes.h"
 
 namespace sconce {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
-struct Rig {
-  Scene scene;
-  World world;
-  Lamps lamps;
-  explicit Rig(Scene s)
-      : scene((assign_groups(s, Grouping::automatic), std::move(s))),
-        world(make_world(scene)),
-        lamps(scene, world) {}
-};
+using Rig = LampRig;
 
 Vec3 on_sphere(Vec2 u) {
   const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));

@@ -6,23 +6,16 @@
 
 #include "core/sobol.h"
 #include "core/test_data.h"
-#include "light/lamp.h"
+#include "light/test_rig.h"
 #include "photometry/formats.h"
-#include "scene/groups.h"
 #include "scene/shapes.h"
 
 namespace sconce {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
-struct Rig {
-  Scene scene;
-  World world;
-  Lamps lamps;
-
+struct Rig : LampRig {
   explicit Rig(Photometry photometry, Mat4 frame = Mat4(1.0f))
-      : scene(make(std::move(photometry), frame)), world(make_world(scene)), lamps(scene, world) {}
+      : LampRig(make(std::move(photometry), frame)) {}
 
   static Scene make(Photometry photometry, const Mat4& frame) {
     Scene scene;
@@ -34,7 +27,6 @@ struct Rig {
     light.frame = frame;
     light.shape = LuminaireLight{Id<Luminaire>(0)};
     scene.lights.push_back(std::move(light));
-    assign_groups(scene, Grouping::automatic);
     return scene;
   }
   /// Illuminance of a plane at x with normal n, red lux: mean over `count` points of the lamp.

@@ -15,6 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace sconce::HWY_NAMESPACE {
 
+// Unnamed: other files have functions of the same names for the same targets.
+namespace {
+
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -145,6 +148,7 @@ std::size_t lanes() {
   return hn::Lanes(Floats());
 }
 
+}  // namespace
 }  // namespace sconce::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
