@@ -10,7 +10,6 @@
 using namespace sconce;
 using test::Outcome;
 using test::run_sconce;
-using test::TempFolder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -31,7 +30,7 @@ constexpr const char* kRoomMtl =
     "newmtl left\nKd 0 0 0\nKe 100 100 100\n"
     "newmtl right\nKd 0 0 0\nKe 50 20 10\n";
 
-std::string write_room(const TempFolder& folder) {
+std::string write_room(const TemporaryFolder& folder) {
   folder.write("room.mtl", kRoomMtl);
   return folder.write("room.obj", kRoomObj);
 }
@@ -40,7 +39,7 @@ std::string write_room(const TempFolder& folder) {
 class Baked : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TempFolder;
+    folder_ = new TemporaryFolder;
     const Outcome bake =
         run_sconce({"bake", write_room(*folder_), "--atlas", "64", "--samples", "8", "--bounces", "1"});
     ASSERT_EQ(bake.code, 0) << bake.err;
@@ -52,15 +51,15 @@ class Baked : public testing::Test {
   static std::string package() { return (*folder_ / "room.sconce").string(); }
   static std::string path(const std::string& name) { return (*folder_ / name).string(); }
   /// A copy that a test may damage.
-  static std::string copy_to(const TempFolder& folder) {
+  static std::string copy_to(const TemporaryFolder& folder) {
     fs::copy(package(), folder / "copy.sconce", fs::copy_options::recursive);
     return (folder / "copy.sconce").string();
   }
 
  private:
-  static TempFolder* folder_;
+  static TemporaryFolder* folder_;
 };
-TempFolder* Baked::folder_ = nullptr;
+TemporaryFolder* Baked::folder_ = nullptr;
 
 /// One line on standard error that names the verb, nothing on standard output.
 void expect_error(const Outcome& outcome, int code, const std::string& verb,
@@ -130,13 +129,13 @@ TEST(Cli, MissingInputsExitWithOne) {
                {"/nonexistent.sconce"});
   expect_error(run_sconce({"render", "/nonexistent.sconce"}), 1, "render", {"/nonexistent.sconce"});
   expect_error(run_sconce({"diff", "/nonexistent.exr", "/nonexistent.exr"}), 1, "diff", {"/nonexistent.exr"});
-  const TempFolder folder;
+  const TemporaryFolder folder;
   expect_error(run_sconce({"info", folder.write("x.txt", "hello\n")}), 1, "info", {"x.txt", "glTF"});
   expect_error(run_sconce({"info", folder.path().string()}), 1, "info", {"no sconce package"});
 }
 
 TEST(Cli, SceneWithoutGeometry) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = folder.write(
       "lamp.gltf",
       R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,"scenes":[{"nodes":[0]}],)"
@@ -148,7 +147,7 @@ TEST(Cli, SceneWithoutGeometry) {
 }
 
 TEST(Cli, SceneInfo) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   const Outcome text = run_sconce({"info", scene});
   EXPECT_EQ(text.code, 0) << text.err;
@@ -163,7 +162,7 @@ TEST(Cli, SceneInfo) {
 }
 
 TEST(Cli, SideFileErrorsNameTheLine) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   folder.write("room.toml", "[options]\natlas = 64\nsampels = 3\n");
   expect_error(run_sconce({"bake", scene}), 2, "bake",
@@ -174,7 +173,7 @@ TEST(Cli, SideFileErrorsNameTheLine) {
 }
 
 TEST(Cli, UnwritableOutputLeavesNothing) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   expect_error(run_sconce({"bake", scene, "-o", (folder / "missing/room.sconce").string(), "--atlas", "64"}),
                1, "bake", {"missing/room.sconce", "cannot be written"});
@@ -186,7 +185,7 @@ TEST(Cli, UnwritableOutputLeavesNothing) {
 }
 
 TEST(Cli, FullDiskLeavesNoPackage) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   // A limit on the size of files fails as a full disk does.
   const Outcome bake = run_sconce({"bake", scene, "--atlas", "128", "--samples", "8", "--quiet"},
@@ -196,7 +195,7 @@ TEST(Cli, FullDiskLeavesNoPackage) {
 }
 
 TEST(Cli, InterruptedBakeStopsCleanly) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   const Outcome bake = run_sconce({"bake", scene, "--atlas", "2048", "--samples", "512"},
                                   "timeout --preserve-status -k 30 -s INT 2");
@@ -260,7 +259,7 @@ TEST_F(Baked, UnwritablePictures) {
 }
 
 TEST_F(Baked, PackageOfAnotherVersion) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string copy = copy_to(folder);
   std::string manifest = read_file(fs::path(copy) / "manifest.json");
   const std::string key = "\"version\": ";
@@ -272,7 +271,7 @@ TEST_F(Baked, PackageOfAnotherVersion) {
 }
 
 TEST_F(Baked, DamagedPackage) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string copy = copy_to(folder);
   const fs::path layer = fs::directory_iterator(fs::path(copy) / "layers")->path();
   fs::resize_file(layer, fs::file_size(layer) / 2);

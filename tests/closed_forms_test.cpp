@@ -43,7 +43,7 @@ class Baked {
   const GroupInfo& group() const { return manifest_.groups.at(0); }
 
  private:
-  test::TempFolder folder_;
+  TemporaryFolder folder_;
   Manifest manifest_;
   std::unique_ptr<Package> package_;
   std::unique_ptr<View> view_;

@@ -26,7 +26,7 @@ bool blender_is_there() {
 
 class Cycles : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
 
   void SetUp() override {
     if (blender_is_there()) return;

@@ -17,7 +17,7 @@ using Names = std::vector<std::string>;
 
 class Directional : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
   Scene scene = test::two_lamp_room();
 
   void SetUp() override { write_scene(); }

@@ -27,7 +27,7 @@ using test::run_sconce;
 
 class External : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
   std::string scene = folder.write("room.glb", write_glb(test::two_lamp_room(), "test"));
   fs::path output = folder / "out.sconce", work = folder / "out.sconce.external";
 

@@ -21,7 +21,7 @@ using Names = std::vector<std::string>;
 
 class Incremental : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
   Scene scene = test::two_lamp_room();
   const fs::path package = folder / "room.sconce";
 

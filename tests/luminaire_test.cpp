@@ -41,7 +41,7 @@ const char* kLamp =
 
 // E = I(C, gamma) cos(gamma) / d2 on the floor, from a side file through import, bake, package and picture.
 TEST(LuminaireBake, LuxOnTheFloor) {
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   Scene scene;
   const float albedo = 0.5f;
   add_quad(scene, "floor", add_material(scene, "grey", Rgb(albedo)), Vec3(-2, 0, -2), Vec3(0, 0, 4),
@@ -76,7 +76,7 @@ TEST(LuminaireBake, LuxOnTheFloor) {
 TEST(LuminaireBake, FluxInAWhiteSphere) {
   const auto file = test_data() / "photometry/ldt/eulumdat-py/sample4.ldt";
   SCONCE_NEEDS_DATA(file);
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   Scene scene;
   add_sphere(scene, "shell", add_material(scene, "white", Rgb(0.5f)), Vec3(0), 3, 48, true);
   folder.write("sphere.glb", write_glb(scene, "test"));
@@ -91,7 +91,7 @@ TEST(LuminaireBake, FluxInAWhiteSphere) {
 TEST(LuminaireVerb, InfoCheckConvert) {
   const auto data = test_data() / "photometry";
   SCONCE_NEEDS_DATA(data);
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   const std::string ldt = (data / "ldt/eulumdat-py/sample4.ldt").string(),
                     ies = (folder / "out.ies").string();
   const auto info = run_sconce({"luminaire", "info", ldt, "--json"});
@@ -125,7 +125,7 @@ TEST(LuminaireVerb, InfoCheckConvert) {
 TEST(LuminaireVerb, FieldAndRender) {
   const auto rays = (test_data() / "photometry/tm25/Cyl10k.1.tm25ray").string();
   SCONCE_NEEDS_DATA(rays);
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   const auto path = [&](const char* name) { return (folder / name).string(); };
   const auto field = run_sconce(
       {"luminaire", "field", rays, "-o", path("lamp.exr"), "--angle", "50", "--pixels", "32", "--json"});

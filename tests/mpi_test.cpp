@@ -22,7 +22,7 @@ using Words = std::vector<std::string>;
 
 class Mpi : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
   std::string scene;
 
   void SetUp() override {

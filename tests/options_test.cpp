@@ -46,7 +46,7 @@ std::string parse_error(std::vector<const char*> args) {
 }
 
 std::string file_error(const std::string& toml) {
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("side.toml", toml);
   Sample sample;
   EXPECT_EQ(sample.parse({"a.glb"}), std::nullopt);
@@ -80,7 +80,7 @@ TEST(Options, ReadsEveryKind) {
 }
 
 TEST(Options, CommandLineBeatsConfigBeatsSideFileBeatsDefault) {
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   const std::string config = folder.write("my.toml", "[options]\nnoise = '1%'\natlas = 256\n");
   const std::string side =
       folder.write("a.toml", "name = 'x'\n[options]\natlas = 128\nforce = true\nnoise = 0.5\n");

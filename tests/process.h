@@ -10,36 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
+#include "core/test_folder.h"
 
 namespace sconce::test {
-
-/// A folder of its own, removed at the end.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sconce-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    path_ = name;
-  }
-  ~TempFolder() {
-    std::error_code ec;
-    std::filesystem::remove_all(path_, ec);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  /// Writes a file there and returns its path.
-  std::string write(const std::string& name, std::string_view bytes) const {
-    write_file(path_ / name, bytes);
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 struct Outcome {
   int code = -1;  ///< exit code, or 128 + signal
@@ -55,7 +28,7 @@ inline std::string shell_quoted(const std::string& text) {
 /// `PROGRAM ARGS...`. @param prefix  shell text before it, e.g. "ulimit -f 10;"
 inline Outcome run_program(const std::string& program, const std::vector<std::string>& args,
                            const std::string& prefix = {}) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   std::string command = prefix + " " + shell_quoted(program);
   for (const std::string& arg : args) command += " " + shell_quoted(arg);
   command += " >" + shell_quoted((folder / "out").string()) + " 2>" + shell_quoted((folder / "err").string());

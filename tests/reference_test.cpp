@@ -15,7 +15,7 @@ void check(const std::string& scene, float density, int samples, double most_rms
   const auto glb = test_data() / "glb" / (scene + ".glb"), references = test_data() / "reference";
   SCONCE_NEEDS_DATA(glb);
   SCONCE_NEEDS_DATA(references);
-  const test::TempFolder folder;
+  const TemporaryFolder folder;
   app::BakeJob job;
   job.scene = glb;
   job.atlas.density = density;

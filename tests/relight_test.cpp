@@ -18,7 +18,7 @@ using Names = std::vector<std::string>;
 
 class Relight : public testing::Test {
  protected:
-  test::TempFolder folder;
+  TemporaryFolder folder;
   const std::string package = (folder / "room.sconce").string();
 
   static test::Outcome run(Names words, const Names& more = {}) {

@@ -10,7 +10,7 @@ namespace sconce {
 namespace {
 
 TEST(Time, BecomesSamples) {
-  test::TempFolder folder;
+  TemporaryFolder folder;
   const std::string scene = folder.write("room.glb", write_glb(test::two_lamp_room(), "test"));
   const auto bake = [&](const char* name, const std::string& option, const std::string& value) {
     const test::Outcome outcome = test::run_sconce(

@@ -2,10 +2,13 @@
 // For tests only: a folder that goes away again.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <string>
+
+#include "core/files.h"
 
 namespace sconce {
 
@@ -13,7 +16,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "sconce-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
+    EXPECT_NE(::mkdtemp(name.data()), nullptr) << name;
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ec;
@@ -22,7 +26,14 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  /// Writes a file there and returns its path.
+  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    write_file(path_ / name, bytes);
+    return path_ / name;
+  }
 
  private:
   std::filesystem::path path_;

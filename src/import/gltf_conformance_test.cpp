@@ -74,7 +74,7 @@ TEST(GltfConformance, FuzzSeeds) {
 TEST(GltfConformance, DamagedBoxNeverCrashes) {
   const fs::path box = test_data() / "glb/cornell-two-lights.glb";
   SCONCE_NEEDS_DATA(box);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string whole = read_file(box);
   const fs::path path = folder.path() / "damaged.glb";
   for (std::size_t n = 0; n < whole.size(); n += 97) {

@@ -10,7 +10,7 @@ namespace sconce {
 namespace {
 
 /// One triangle with a material, lamps and whatever else the root may hold.
-Scene import_with(const std::string& rest, const TestFolder& folder, const Progress& progress = {}) {
+Scene import_with(const std::string& rest, const TemporaryFolder& folder, const Progress& progress = {}) {
   const GltfBuilder b = triangle();
   return import_gltf(
       folder.write(
@@ -25,7 +25,7 @@ std::string pixels(std::vector<unsigned char> data, int width, int height, int c
 }
 
 TEST(GltfMaterials, AllThatALightmapNeeds) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   folder.write("base.png", pixels({255, 0, 0, 0, 255, 0}, 2, 1, 3));
   folder.write("glow.png", pixels({255, 255, 255}, 1, 1, 3));
   Warnings w;
@@ -74,7 +74,7 @@ TEST(GltfMaterials, AllThatALightmapNeeds) {
 }
 
 TEST(GltfMaterials, NormalMapsAndTangents) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   folder.write("bumps.png", pixels({128, 128, 255}, 1, 1, 3));
   GltfBuilder b = triangle();
   b.accessor(b.view<float>({1, 0, 0, -1, 0, 1, 0, 1, 0, 0, 1, 1}), 5126, "VEC4", 3);
@@ -94,7 +94,7 @@ TEST(GltfMaterials, NormalMapsAndTangents) {
 }
 
 TEST(GltfMaterials, MissingAndDamagedTexturesAreNamed) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   folder.write("bad.png", "\x89PNG no");
   Warnings w;
   const Scene scene = import_with(
@@ -118,7 +118,7 @@ TEST(GltfMaterials, MissingAndDamagedTexturesAreNamed) {
 }
 
 TEST(GltfMaterials, InlineGreyAndAlphaPictures) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string grey = pixels({10, 200}, 2, 1, 1);
   const std::string uri = "data:image/png;base64," + base64({grey.begin(), grey.end()});
   const Scene scene = import_with(
@@ -132,7 +132,7 @@ TEST(GltfMaterials, InlineGreyAndAlphaPictures) {
 }
 
 TEST(GltfLights, NumbersAsTheyStand) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Scene scene = import_with(R"("materials":[{}],"nodes":[{"mesh":0},
     {"name":"Lamp","scale":[3,3,3],"translation":[1,2,3],"extensions":{"KHR_lights_punctual":{"light":0}}},
     {"rotation":[-0.7071068,0,0,0.7071068],"extensions":{"KHR_lights_punctual":{"light":1}},"extras":{"light_group":"down"}},
@@ -236,7 +236,7 @@ std::string draco_square(int position_id, int index_count) {
 }
 
 TEST(GltfDraco, SquareAndDamage) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Scene scene = import_gltf(folder.write("square.gltf", draco_square(0, 6)));
   ASSERT_EQ(scene.meshes.size(), 1u);
   const Mesh& mesh = scene.meshes[0];

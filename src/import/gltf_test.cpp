@@ -6,7 +6,7 @@ namespace sconce {
 namespace {
 
 Scene import_text(const std::string& json, const Progress& progress = {}) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   return import_gltf(folder.write("scene.gltf", json), progress);
 }
 
@@ -175,7 +175,7 @@ TEST(GltfNodes, Cameras) {
 }
 
 TEST(GltfFiles, ExternalBuffersMissingAndShort) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const GltfBuilder b = triangle();
   const std::string json = b.json(std::string(kTriangleMesh) + R"(,"nodes":[{"mesh":0}])", "my%20data.bin");
   const auto path = folder.write("scene.gltf", json);
@@ -209,7 +209,7 @@ TEST(GltfFiles, VersionsExtensionsAndOtherFormats) {
 
   EXPECT_NE(error_text(R"({"asset":{"version":"1.0"}})").find("version 1.0"), std::string::npos);
   EXPECT_NE(error_text("{\"asset\":").find("JSON"), std::string::npos);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   EXPECT_THROW(import_gltf(folder.write("x.glb", "glTF")), Error);
   EXPECT_THROW(import_gltf(folder.write("x.obj", "v 0 0 0\n")), NotMyFormat);
   EXPECT_THROW(import_gltf(folder.path() / "none.glb"), Error);

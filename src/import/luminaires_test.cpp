@@ -15,7 +15,7 @@ const char* kLamp =
     "1000 200\n1000 100\n";
 
 struct Room {
-  TestFolder folder;
+  TemporaryFolder folder;
   Warnings warnings;
 
   Scene with(const std::string& nodes, const std::string& side = "", const std::string& more = "") {

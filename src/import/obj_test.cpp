@@ -13,7 +13,7 @@ std::size_t triangles_of(const Scene& scene) {
 }
 
 TEST(Obj, GroupsMaterialsAndCoordinates) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   folder.write("a b.mtl",
                "newmtl red\nKd 0.8 0.1 0.2\nmap_Kd -clamp on tile.png\nnewmtl lamp\nKd 0 0 0\nKe 17 12 4\n"
                "newmtl glass\nKd 1 1 1\nd 0.3\n");
@@ -46,7 +46,7 @@ TEST(Obj, GroupsMaterialsAndCoordinates) {
 }
 
 TEST(Obj, MissingMaterialFileIsNamed) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   Warnings w;
   const Scene scene = import_scene(
       folder.write("x.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"), w.progress);

@@ -18,7 +18,7 @@ const char* kRoom = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mo
   "spot":{"innerConeAngle":0.2,"outerConeAngle":0.5}}]}})";
 
 struct Room {
-  TestFolder folder;
+  TemporaryFolder folder;
   Warnings warnings;
 
   Scene with(const std::string& side) {

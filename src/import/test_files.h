@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests only: a folder of its own, a sink for warnings, small glTF files.
+// For tests only: a sink for warnings, small glTF files.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -14,35 +13,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
+#include "core/test_folder.h"
 #include "import/import.h"
 
 namespace sconce {
-
-/// A folder that is removed with the test.
-class TestFolder {
- public:
-  TestFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("sconce-" + std::string(test->test_suite_name()) + "-" +
-                                                      test->name() + "-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~TestFolder() {
-    std::error_code ec;
-    std::filesystem::remove_all(path_, ec);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Collects warnings.
 struct Warnings {
