@@ -41,11 +41,8 @@ int run_luminaire(int argc, const char* const* argv) {
     fmt::print("\n'sconce luminaire ACTION --help' lists its options.\n");
     return kDone;
   }
-  const auto nearest = nearest_name(name, names);
   throw UsageError(
-      {},
-      name.empty() ? "missing action"
-                   : "unknown action '" + name + "'" + (nearest ? "; did you mean '" + *nearest + "'?" : ""),
+      {}, name.empty() ? "missing action" : "unknown action '" + name + "'" + did_you_mean(name, names),
       join(names, ", "));
 }
 

@@ -90,9 +90,8 @@ int main(int argc, char** argv) {
   }
   if (name.empty())
     return complain("", "missing verb (allowed: " + join(names, ", ") + "); see 'sconce --help'", kUsage);
-  const std::optional<std::string> nearest = nearest_name(name, names);
   return complain("",
                   fmt::format("unknown {} '{}'{} (allowed: {})", name.starts_with('-') ? "option" : "verb",
-                              name, nearest ? "; did you mean '" + *nearest + "'?" : "", join(names, ", ")),
+                              name, did_you_mean(name, names), join(names, ", ")),
                   kUsage);
 }

@@ -173,10 +173,8 @@ void Options::State::take_file(const std::string& path, const std::string& sourc
       return d.in_files && !d.positional && d.key == entry.key;
     });
     if (match == declared.end()) {
-      const std::optional<std::string> nearest = nearest_name(entry.key, known);
       throw UsageError(entry.where,
-                       fmt::format("unknown option '{}'{}", entry.key,
-                                   nearest ? "; did you mean '" + *nearest + "'?" : ""),
+                       fmt::format("unknown option '{}'{}", entry.key, did_you_mean(entry.key, known)),
                        join(known, ", "));
     }
     const std::string where = entry.where + ": option '" + entry.key + "'";

@@ -61,12 +61,9 @@ std::vector<MovedGroup> take_groups(const Manifest& m, const std::vector<std::st
   std::vector<MovedGroup> moved;
   for (const std::string& name : names) {
     const auto it = std::find(known.begin(), known.end(), name);
-    if (it == known.end()) {
-      const auto near = nearest_name(name, known);
-      throw UsageError("--light group",
-                       "unknown group '" + name + "'" + (near ? "; did you mean '" + *near + "'?" : ""),
+    if (it == known.end())
+      throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
                        join(known, ", "));
-    }
     const auto g = static_cast<std::size_t>(it - known.begin());
     moved.push_back({Id<LightGroup>(g), lightmap.weights[g]});
     lightmap.weights[g] = Rgb(0);

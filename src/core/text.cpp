@@ -61,6 +61,11 @@ std::optional<std::string> nearest_name(std::string_view wrong, std::span<const 
   return best;
 }
 
+std::string did_you_mean(std::string_view wrong, std::span<const std::string> names) {
+  const std::optional<std::string> nearest = nearest_name(wrong, names);
+  return nearest ? "; did you mean '" + *nearest + "'?" : "";
+}
+
 std::vector<std::string> split(std::string_view s, char separator) {
   std::vector<std::string> parts;
   for (std::size_t start = 0;;) {

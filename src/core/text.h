@@ -19,6 +19,9 @@ bool glob_match(std::string_view pattern, std::string_view name);
 /// any.
 std::optional<std::string> nearest_name(std::string_view wrong, std::span<const std::string> names);
 
+/// "; did you mean 'y'?" for the end of a message, or nothing.
+std::string did_you_mean(std::string_view wrong, std::span<const std::string> names);
+
 std::vector<std::string> split(std::string_view s, char separator);
 std::string join(std::span<const std::string> parts, std::string_view separator);
 std::string trim(std::string_view s);

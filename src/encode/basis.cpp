@@ -2,11 +2,8 @@
 #include "encode/basis.h"
 
 #include <array>
-#include <string>
-#include <vector>
 
-#include "core/error.h"
-#include "core/text.h"
+#include "core/find_row.h"
 
 namespace sconce {
 
@@ -24,12 +21,7 @@ const BasisRow& basis_row(Basis basis) {
 }
 
 Basis find_basis(std::string_view name) {
-  std::vector<std::string> names;
-  for (const BasisRow& b : bases()) {
-    if (b.name == name) return b.basis;
-    names.emplace_back(b.name);
-  }
-  throw UsageError({}, "unknown basis '" + std::string(name) + "'", join(names, ", "));
+  return find_row(bases(), name, "basis").basis;
 }
 
 std::string_view coefficient_suffix(std::size_t coefficient) {

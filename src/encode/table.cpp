@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 
-#include "core/error.h"
-#include "core/text.h"
+#include "core/find_row.h"
 #include "encode/rows.h"
 
 namespace sconce {
@@ -15,12 +13,7 @@ std::span<const Encoding> encodings() {
 }
 
 const Encoding& find_encoding(std::string_view name) {
-  std::vector<std::string> names;
-  for (const Encoding& encoding : encodings()) {
-    if (encoding.name == name) return encoding;
-    names.emplace_back(encoding.name);
-  }
-  throw UsageError({}, "unknown encoding '" + std::string(name) + "'", join(names, ", "));
+  return find_row(encodings(), name, "encoding");
 }
 
 }  // namespace sconce

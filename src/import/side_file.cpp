@@ -47,9 +47,7 @@ std::vector<std::size_t> matching(const SideContext& context, const SideTable& t
   for (std::size_t i = 0; i < names.size(); ++i)
     if (glob_match(glob, names[i])) out.push_back(i);
   if (out.empty()) {
-    const auto near = nearest_name(glob, names);
-    context.progress.warn(table.where(key) + ": '" + glob + "' matches nothing" +
-                          (near ? "; did you mean '" + *near + "'?" : ""));
+    context.progress.warn(table.where(key) + ": '" + glob + "' matches nothing" + did_you_mean(glob, names));
   }
   return out;
 }

@@ -67,10 +67,8 @@ SideTable::SideTable(std::string file, std::string title, const SideNode& node,
   if (table == nullptr) throw Error(where(), title_ + " is no table", title_);
   for (const auto& [key, value] : *table) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-    const auto near = nearest_name(key, allowed);
     throw Error(file_ + ":" + std::to_string(value.line),
-                "unknown key '" + key + "' in " + title_ + (near ? "; did you mean '" + *near + "'?" : ""),
-                join(allowed, ", "));
+                "unknown key '" + key + "' in " + title_ + did_you_mean(key, allowed), join(allowed, ", "));
   }
 }
 

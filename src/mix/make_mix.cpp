@@ -38,10 +38,8 @@ std::vector<std::size_t> find_groups(std::span<const GroupInfo> groups, const As
 [[noreturn]] void fail_unknown(std::span<const GroupInfo> groups, const std::string& wrong) {
   std::vector<std::string> names;
   for (const GroupInfo& group : groups) names.push_back(group.name);
-  const std::optional<std::string> nearest = nearest_name(wrong, names);
-  throw UsageError(
-      {}, "unknown light group '" + wrong + "'" + (nearest ? "; did you mean '" + *nearest + "'?" : ""),
-      names.empty() ? "none: there is no light group" : join(names, ", "));
+  throw UsageError({}, "unknown light group '" + wrong + "'" + did_you_mean(wrong, names),
+                   names.empty() ? "none: there is no light group" : join(names, ", "));
 }
 
 }  // namespace

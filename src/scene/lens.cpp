@@ -52,11 +52,8 @@ const Camera* find_camera(const Scene& scene, std::string_view name) {
     if (camera.name == name) return &camera;
     names.push_back(camera.name);
   }
-  const std::optional<std::string> nearest = nearest_name(name, names);
-  throw UsageError(
-      {},
-      "unknown camera '" + std::string(name) + "'" + (nearest ? "; did you mean '" + *nearest + "'?" : ""),
-      names.empty() ? "none: the scene has no camera" : join(names, ", "));
+  throw UsageError({}, "unknown camera '" + std::string(name) + "'" + did_you_mean(name, names),
+                   names.empty() ? "none: the scene has no camera" : join(names, ", "));
 }
 
 }  // namespace sconce

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of dialects and tiers.
-#include "core/error.h"
-#include "core/text.h"
+#include "core/find_row.h"
 #include "shader/composer.h"
 
 namespace sconce {
@@ -25,30 +24,19 @@ constexpr ShaderTier kTiers[] = {
     {"byte", "8-bit channels only", false, false, false, false},
 };
 
-/// By name; they differ in what they are called.
-template <class Row>
-const Row& find(std::span<const Row> rows, std::string_view name, const char* what) {
-  std::vector<std::string> names;
-  for (const Row& row : rows) {
-    if (row.name == name) return row;
-    names.emplace_back(row.name);
-  }
-  throw UsageError({}, "unknown " + std::string(what) + " '" + std::string(name) + "'", join(names, ", "));
-}
-
 }  // namespace
 
 std::span<const ShaderTarget> shader_targets() {
   return kTargets;
 }
 const ShaderTarget& find_shader_target(std::string_view name) {
-  return find(shader_targets(), name, "shader target");
+  return find_row(shader_targets(), name, "shader target");
 }
 std::span<const ShaderTier> shader_tiers() {
   return kTiers;
 }
 const ShaderTier& find_shader_tier(std::string_view name) {
-  return find(shader_tiers(), name, "tier");
+  return find_row(shader_tiers(), name, "tier");
 }
 
 EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding, bool is_signed) {

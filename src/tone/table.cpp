@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
-#include <vector>
 
-#include "core/error.h"
-#include "core/text.h"
+#include "core/find_row.h"
 #include "tone/curve.h"
 
 namespace sconce {
@@ -85,12 +83,7 @@ std::string tone_glsl(const ToneMapper& mapper) {
 }
 
 const ToneMapper& find_tone_mapper(std::string_view name) {
-  std::vector<std::string> names;
-  for (const ToneMapper& mapper : kToneMappers) {
-    if (mapper.name == name) return mapper;
-    names.emplace_back(mapper.name);
-  }
-  throw UsageError({}, "unknown tone curve '" + std::string(name) + "'", join(names, ", "));
+  return find_row(tone_mappers(), name, "tone curve");
 }
 
 }  // namespace sconce
