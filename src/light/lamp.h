@@ -75,6 +75,14 @@ struct MeshLamp {
   double area = 0;   ///< m2, one side
   bool two_sided = false;
   bool uniform = false;  ///< no emission texture, no alpha mask
+  bool few = false;      ///< uniform and of so few triangles that near points sample what they see of each
+
+  /// Whether points of the lamp are picked by solid angle from x, not by area.
+  bool by_solid_angle(const Vec3& x) const {
+    constexpr float kNear = 3;  // radii; beyond, the difference is small
+    const Vec3 to = center - x;
+    return few && glm::dot(to, to) < kNear * kNear * radius * radius;
+  }
 
   /// A point by the table; its radiance is the material's emission. Inline: this is the bake's most frequent
   /// call.
@@ -149,7 +157,8 @@ class Lamps {
   /// @return false where nothing arrives; `out` is then undefined
   [[gnu::always_inline]] bool sample(std::size_t i, const Vec3& x, Vec2 u, LightSample& out) const {
     const auto* mesh = std::get_if<MeshLamp>(&lamps_[i].shape);
-    return mesh != nullptr && mesh->uniform ? mesh->sample(x, u, out) : sample_other(i, x, u, out);
+    return mesh != nullptr && mesh->uniform && !mesh->by_solid_angle(x) ? mesh->sample(x, u, out)
+                                                                        : sample_other(i, x, u, out);
   }
 
   /// A particle from lamp i, (where, whither) in [0,1)^4; position by area x texel, direction by intensity.

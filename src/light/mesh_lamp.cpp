@@ -2,6 +2,7 @@
 #include "light/mesh_lamp.h"
 
 #include "core/triangle_grid.h"
+#include "light/spherical_triangle.h"
 
 namespace sconce {
 
@@ -9,7 +10,8 @@ namespace {
 
 constexpr int kMaxCut = 64;  // pieces per edge of a textured emissive triangle, at most
 constexpr std::size_t kMaxPieces = 1 << 20;
-constexpr double kFloor = 0.1;  // share of the picking density that ignores the texture
+constexpr std::size_t kFew = 4;  // pieces of a lamp that is sampled by solid angle, at most
+constexpr double kFloor = 0.1;   // share of the picking density that ignores the texture
 
 /// Texels of the emission texture along the longest edge of the triangle.
 double texels_along(const Scene& scene, const World& world, const Material& material, uint32_t t) {
@@ -28,6 +30,48 @@ double texels_along(const Scene& scene, const World& world, const Material& mate
 
 bool is_uniform(const Material& material) {
   return !material.emission_texture.texture.valid() && material.alpha_mode != Material::Alpha::mask;
+}
+
+/// Height of x over the face of a piece, m.
+float height(const MeshLamp::Piece& piece, const Vec3& x) {
+  return glm::dot(x - piece.p0, piece.normal);
+}
+
+SphericalTriangle seen(const MeshLamp::Piece& piece, const Vec3& x) {
+  const Vec3 a = piece.p0 - x;
+  return {a, a + piece.e1, a + piece.e2};
+}
+
+/// Solid angles of a lamp of few pieces from a point.
+struct SolidAngles {
+  float of[kFew], sum = 0;
+
+  SolidAngles(const MeshLamp& lamp, const Vec3& x) {
+    for (std::size_t p = 0; p < lamp.pieces.size(); ++p) {
+      const bool lit = lamp.two_sided || height(lamp.pieces[p], x) > 0;
+      of[p] = lit ? seen(lamp.pieces[p], x).solid_angle() : 0.0f;
+      sum += of[p];
+    }
+  }
+};
+
+/// A direction uniform in what x sees of the lamp.
+bool sample_solid_angle(const MeshLamp& lamp, const Vec3& x, Vec2 u, LightSample& out) {
+  const SolidAngles angles(lamp, x);
+  if (!(angles.sum > 1e-6f)) return false;
+  float left = u.x * angles.sum;
+  std::size_t p = 0;
+  while (p + 1 < lamp.pieces.size() && left >= angles.of[p]) left -= angles.of[p++];
+  if (!(angles.of[p] > 0)) return false;
+  const MeshLamp::Piece& piece = lamp.pieces[p];
+  out.direction = seen(piece, x).sample({std::min(left / angles.of[p], 0x1.fffffep-1f), u.y});
+  const float cosine = std::abs(glm::dot(out.direction, piece.normal));
+  if (!(cosine > 1e-7f)) return false;
+  out.distance = std::abs(height(piece, x)) / cosine;
+  out.radiance = piece.emission;
+  out.pdf = 1 / angles.sum;
+  out.delta = false;
+  return true;
 }
 
 }  // namespace
@@ -107,6 +151,7 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
   for (std::size_t p = 0; p < areas.size(); ++p)
     lamp.pieces[p].density = static_cast<float>(weights[p] / total / areas[p]);
 
+  lamp.few = lamp.uniform && lamp.pieces.size() <= kFew;
   lamp.center = bounds.center();
   lamp.radius = 0.5f * bounds.diagonal();
   const Vec3 normal = world.face_normals[first];
@@ -127,6 +172,7 @@ Lamp make_mesh_lamp(const Scene& scene, const World& world, Id<Instance> instanc
 
 bool sample(const MeshLamp& lamp, const Scene& scene, const World& world, const Vec3& x, Vec2 u,
             LightSample& out) {
+  if (lamp.by_solid_angle(x)) return sample_solid_angle(lamp, x, u, out);
   std::pair<const MeshLamp::Piece*, Vec2> where;
   if (!lamp.sample(x, u, out, &where)) return false;
   const auto& [piece, b] = where;
@@ -157,6 +203,13 @@ EmittedLight emit(const MeshLamp& lamp, const Scene& scene, const World& world, 
 float pdf(const MeshLamp& lamp, const World& world, uint32_t triangle, Vec2 barycentric, float distance,
           const Vec3& direction) {
   const uint32_t i = triangle - lamp.first_triangle;
+  if (lamp.few) {
+    const Vec3 x = world.position(triangle, barycentric) - distance * direction;
+    if (lamp.by_solid_angle(x)) {
+      const float sum = SolidAngles(lamp, x).sum;
+      return sum > 1e-6f ? 1 / sum : 0.0f;
+    }
+  }
   const std::size_t piece = lamp.first_piece[i] + grid_part(barycentric, lamp.cut[i]);
   const float cosine = std::abs(glm::dot(direction, world.face_normals[triangle]));
   return cosine > 1e-7f ? lamp.pieces[piece].density * distance * distance / cosine : 0.0f;
