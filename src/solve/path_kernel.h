@@ -169,8 +169,9 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
   // Rounds double, so that every stop leaves a whole power of two per batch.
   for (uint32_t round = params.noise > 0 ? std::min(most, 2u) : most;; round = std::min(most, 2 * round)) {
     for (int b = 0; b < kBatches; ++b) {
-      const uint32_t stream = mix32(mix32(params.seed, static_cast<uint32_t>(b)), receiver.id);
-      for (uint32_t i = done; i < round; ++i) sample(stream, i, batch(b));
+      // Batches are neighbouring parts of one sequence: each is a net, and so are all together.
+      const uint32_t part = round - done, first = kBatches * done + static_cast<uint32_t>(b) * part;
+      for (uint32_t i = 0; i < part; ++i) sample(mix32(params.seed, receiver.id), first + i, batch(b));
     }
     done = round;
     double mean_total = 0, squares_total = 0;
