@@ -233,6 +233,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
     throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");
   job.denoise = denoise == "on";
   job.params.samples = samples > 0 ? samples : samples_of(quality);
+  // How many fit is known only after the cache is made.
+  if (time > 0) job.params.cache_samples = samples_of("final");
   job.params.bounces = bounces;
   job.params.basis = find_basis(basis);
   job.params.noise = noise;

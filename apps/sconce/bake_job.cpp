@@ -35,6 +35,7 @@ std::string how_hash(const BakeJob& job) {
   hash.value(job.params.seed)
       .value(job.params.bounces)
       .value(job.params.cloud)
+      .value(job.params.cache_samples)
       .value(job.params.photons)
       .value(job.params.final_gather);
   hash.value(job.atlas.page_size).value(job.atlas.max_page).value(job.atlas.density).value(job.atlas.gutter);
@@ -126,6 +127,7 @@ std::string BakeJob::to_json() const {
                                {"basis", basis_row(params.basis).name},
                                {"noise", params.noise},
                                {"cloud", params.cloud},
+                               {"cache_samples", params.cache_samples},
                                {"photons", params.photons},
                                {"final_gather", params.final_gather}};
   return json.dump();
@@ -151,6 +153,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     job.params.basis = find_basis(json.at("basis").get<std::string>());
     json.at("noise").get_to(job.params.noise);
     json.at("cloud").get_to(job.params.cloud);
+    json.at("cache_samples").get_to(job.params.cache_samples);
     json.at("photons").get_to(job.params.photons);
     json.at("final_gather").get_to(job.params.final_gather);
     return job;

@@ -36,6 +36,8 @@ def parse():
     parser.add_argument("--data", type=pathlib.Path,
                         default=os.environ.get("SCONCE_TEST_DATA", ROOT / "../shared/data"))
     parser.add_argument("--work", type=pathlib.Path, help="keep all packages here (default: a folder that is removed)")
+    parser.add_argument("--reuse", action="store_true",
+                        help="take references and Cycles' bakes that stand in --work: of the same scene and atlas")
     parser.add_argument("--output", default=HERE.parent / "results/cycles.md", type=pathlib.Path)
     options = parser.parse_args()
     glb = options.data / "glb"
@@ -65,6 +67,9 @@ class Bench:
             return time.monotonic()
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         return used.ru_utime + used.ru_stime
+
+    def stands(self, package):
+        return self.options.reuse and package.exists()
 
     def bake(self, case, name, solver, samples, seed=1, more=()):
         """@return (package, seconds)"""
@@ -103,9 +108,11 @@ class Bench:
         points = {}
         for samples in self.options.cycles_samples:
             times = self.work / f"times-{samples}.jsonl"
-            times.unlink(missing_ok=True)
-            solver = f"external:'{ROOT}/solvers/cycles/sconce-cycles' --times '{times}'"
-            package, _ = self.bake(case, f"cycles-{samples}", solver, samples)
+            package = self.work / f"cycles-{samples}.sconce"
+            if not self.stands(package):
+                times.unlink(missing_ok=True)
+                solver = f"external:'{ROOT}/solvers/cycles/sconce-cycles' --times '{times}'"
+                self.bake(case, package.stem, solver, samples)
             errors, _ = self.errors(package, references)
             ending = "_s" if self.options.clock == "wall" else "_cpu_s"
             for line in times.read_text().splitlines():
@@ -132,16 +139,14 @@ def fit_time(points):
 
 
 def fit_error(points):
-    """Relative: (floor, variance, whole) of error^2 = floor^2 + variance / samples, and of error^2 = whole / samples."""
-    weighted = [(1 / n, e * e, 1 / max(e, 1e-9) ** 4) for n, _, e in points]
-    square, variance = line(weighted)
-    whole = sum(w * x * y for x, y, w in weighted) / sum(w * x * x for x, _, w in weighted)
-    return math.sqrt(square), variance, whole
+    """Relative: (floor, variance) of error^2 = floor^2 + variance / samples."""
+    square, variance = line([(1 / n, e * e, 1 / max(e, 1e-9) ** 4) for n, _, e in points])
+    return math.sqrt(square), variance
 
 
 def samples_for(points, target):
-    """Number of samples n at which a line through (log n, log error) of the two points about the target meets it. For denoised
-    layers, whose error does not fall with the root of n."""
+    """Number of samples n at which a line through (log n, log error) of the two points about the target meets it: errors need
+    not fall with the root of n."""
     points = sorted(points)
     at = next((i for i in range(1, len(points)) if points[i][1] <= target), len(points) - 1)
     (n0, e0), (n1, e1) = points[at - 1], points[at]
@@ -152,11 +157,11 @@ def samples_for(points, target):
 
 def compare(bench, case):
     scene, grouping, atlas = case
-    references, seconds = [], 0
+    references = []
     for seed in (1001, 1002):
-        package, took = bench.bake(case, f"reference-{seed}", "path", bench.options.reference, seed)
-        references.append(package)
-        seconds += took
+        references.append(bench.work / f"reference-{seed}.sconce")
+        if not bench.stands(references[-1]):
+            bench.bake(case, references[-1].stem, "path", bench.options.reference, seed)
     checks, texels = bench.errors(references[0], references)
     ours, theirs = bench.sconce(case, references), bench.cycles(case, references)
     ready, per_sample = fit_time([(n, t, None) for n, t, _ in ours])
@@ -171,18 +176,15 @@ def compare(bench, case):
                             f"{ready:.2f} s + {1000 * per_sample:.3g} ms per sample.", "",
                             "| group | reference noise | sconce at each number of samples | its floor | Cycles | its floor | "
                             "Cycles s + ms per sample |", "|---|---|---|---|---|---|---|"]
-    for group, ((floor, _, _), (setup, rate), (their_floor, _, _)) in fits.items():
+    for group, ((floor, _), (setup, rate), (their_floor, _)) in fits.items():
         shown = [" ".join(f"{100 * e:.2f}" for e in errors) for errors in
                  ([e[group] for _, _, e in ours], [e for _, _, e in theirs[group]])]
         details.append(f"| {group} | {100 * checks[group][1]:.2f} % | {shown[0]} % | {100 * floor:.2f} % | {shown[1]} % | "
                        f"{100 * their_floor:.2f} % | {setup:.2f} + {1000 * rate:.3g} |")
     for target in TARGETS:
-        if bench.options.denoise:
-            needed = max(samples_for([(n, e[group]) for n, _, e in ours], target) for group in fits)
-        else:
-            needed = max(whole for (_, _, whole), _, _ in fits.values()) / target**2
+        needed = max(samples_for([(n, e[group]) for n, _, e in ours], target) for group in fits)
         mine = ready + per_sample * needed
-        cycles = sum(setup + rate * variance / target**2 for _, (setup, rate), (_, variance, _) in fits.values())
+        cycles = sum(setup + rate * variance / target**2 for _, (setup, rate), (_, variance) in fits.values())
         summary.append(f"| {name} | {100 * target:.0f} % | {cycles:.3g} s | {mine:.3g} s | {needed:.0f} | "
                        f"{cycles / mine:.1f} × |")
     return summary, details

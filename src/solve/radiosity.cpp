@@ -11,9 +11,24 @@ namespace sconce {
 
 namespace {
 
-constexpr uint32_t kDirectSamples = 4;     // per cell
-constexpr std::size_t kRowRays = 1 << 21;  // in all
-constexpr float kShort = 2;                // a ray shorter than so many spacings goes on as a path
+constexpr float kShort = 2;  // a ray shorter than so many spacings goes on as a path
+
+// Light on cells and rays of rows: as few as are not seen beside the noise of the receivers' own rays.
+constexpr int kLeastDirectSamples = 2, kMostDirectSamples = 4;          // per cell
+constexpr std::size_t kLeastRowRays = 1 << 19, kMostRowRays = 1 << 21;  // in all
+
+struct CacheEffort {
+  uint32_t direct_samples = kMostDirectSamples;
+  std::size_t row_rays = kMostRowRays;
+
+  CacheEffort(const SolveContext& context, const BakeParams& params) {
+    if (context.receivers == nullptr) return;
+    const int samples = params.cache_samples > 0 ? params.cache_samples : params.samples;
+    direct_samples = static_cast<uint32_t>(std::clamp(samples / 16, kLeastDirectSamples, kMostDirectSamples));
+    row_rays = std::clamp(context.receivers->size() * static_cast<std::size_t>(samples) / 4, kLeastRowRays,
+                          kMostRowRays);
+  }
+};
 
 /// A sample for four texels, up to where more were not seen to help.
 std::size_t cloud_size(const SolveContext& context, const BakeParams& params) {
@@ -60,8 +75,9 @@ class RadiositySolver final : public Solver {
     cloud.samples = cloud_size(context, params);
     cloud_ = std::make_unique<GatherCloud>(context.scene, context.world, context.tracer, context.lamps,
                                            source(context.receivers), cloud, progress, context.ranks);
-    direct_ = direct_light(progress);
-    const int rays = static_cast<int>(std::clamp<std::size_t>(kRowRays / cloud_->size(), 32, 256));
+    const CacheEffort effort(context, params);
+    direct_ = direct_light(effort.direct_samples, progress);
+    const int rays = static_cast<int>(std::clamp<std::size_t>(effort.row_rays / cloud_->size(), 32, 256));
     DirectLight direct;
     direct.groups = context.scene.groups.size();
     direct.on_cells = direct_;
@@ -103,7 +119,7 @@ class RadiositySolver final : public Solver {
 
  private:
   /// Direct illuminance on the cloud's cells, cells x 3 groups; black where they are not trusted wholly.
-  std::vector<float> direct_light(const Progress& progress) const {
+  std::vector<float> direct_light(uint32_t samples, const Progress& progress) const {
     const std::size_t width = 3 * context_.scene.groups.size();
     std::vector<float> direct(width * cloud_->cells());
     const uint32_t seed = mix32(params_.seed, 0x64697265u);
@@ -122,10 +138,8 @@ class RadiositySolver final : public Solver {
         if (cloud_->owner(cell).trust != Trust::whole) continue;
         const Footprint footprint = cloud_->cell_footprint(cell);
         std::fill(sums.begin(), sums.end(), 0.0);
-        for (uint32_t s = 0; s < kDirectSamples; ++s)
-          kernel.sample(footprint, mix32(seed, cell), s, FlatSums{sums});
-        for (std::size_t g = 0; g < width; ++g)
-          direct[width * c + g] = static_cast<float>(sums[g] / kDirectSamples);
+        for (uint32_t s = 0; s < samples; ++s) kernel.sample(footprint, mix32(seed, cell), s, FlatSums{sums});
+        for (std::size_t g = 0; g < width; ++g) direct[width * c + g] = static_cast<float>(sums[g] / samples);
       }
       progress.at("light on the cloud", ++done, blocks);
     });

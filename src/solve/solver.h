@@ -24,6 +24,7 @@ struct BakeParams {
   uint32_t seed = 1;
   Basis basis = Basis::flat;
   int cloud = 0;            ///< radiosity solver: gather samples; 0 = chosen by it
+  int cache_samples = 0;    ///< samples that its cache is made good enough for; 0 = `samples`
   double noise = 0;         ///< stop a receiver early when its relative standard error falls below; 0 = never
   std::size_t photons = 0;  ///< photon solver: emitted by all lamps together; 0 = by the number of texels
   bool final_gather = true;           ///< photon solver: rays read the map; false = the receiver itself does
@@ -31,7 +32,7 @@ struct BakeParams {
   std::filesystem::path work_folder;  ///< and where its files go
 };
 
-/// Independently scrambled batches of samples: their spread is the noise.
+/// Batches of samples, parts of one scrambled sequence: their spread is the noise, or somewhat more (ADR 26).
 inline constexpr int kBatches = 8;
 
 /// What a solver sees. All outlive it.
