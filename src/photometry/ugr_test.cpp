@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "photometry/formats.h"
 #include "photometry/lines.h"
+#include "photometry/position_index.h"
 
 namespace sconce {
 namespace {
@@ -40,9 +41,34 @@ TEST(Ugr, ProjectedAreas) {
   EXPECT_NEAR(projected_area(ball, slant), M_PI, 1e-6);
 }
 
+// Levin's formula is another man's fit to Guth's data: a slip of a digit in the table would leave its band
+// (4.5 % off in the mean, 11 % where the print itself slips).
+TEST(Ugr, PositionIndexIsGuths) {
+  EXPECT_EQ(position_index(0, 0), 1.0);
+  EXPECT_NEAR(*position_index(1.05, 0.55), (3.91 + 4.4 + 4.2 + 4.7) / 4, 1e-12);
+  EXPECT_FALSE(position_index(0, 1.75));
+  EXPECT_FALSE(position_index(3.01, 0.5));
+  EXPECT_EQ(position_index(3, 1.9), 16.0);
+  std::size_t knots = 0;
+  for (int i = 0; i <= 30; ++i)
+    for (int j = 0; j <= 19; ++j) {
+      const double lateral = i / 10.0, height = j / 10.0;
+      const auto p = position_index(lateral, height);
+      if (!p) continue;
+      ++knots;
+      const double alpha = height > 0 ? std::atan(lateral / height) * 180 / M_PI : 90,
+                   beta = std::acos(1 / std::sqrt(1 + lateral * lateral + height * height)) * 180 / M_PI;
+      const double levin = std::exp((35.2 - 0.31889 * alpha - 1.22 * std::exp(-2 * alpha / 9)) * 1e-3 * beta +
+                                    (21 + 0.26667 * alpha - 0.002963 * alpha * alpha) * 1e-5 * beta * beta);
+      EXPECT_NEAR(*p / levin, 1, i == 27 && j == 6 ? 0.12 : 0.1) << lateral << ", " << height;
+    }
+  EXPECT_EQ(knots, 31u * 20 - 13);
+}
+
 // The references differ by up to 0.8 among themselves and come rounded to 0.1. Sample 06 shines 79 % upwards:
 // its ratings lie below 10, where Relux prints "<10.0" and DIALux counts lamps that CIE 117 leaves out
-// (height / distance above 1.9); there we agree with Relux.
+// (height / distance above 1.9); there we agree with Relux. What is further off than 0.1 is sample 05, whose
+// coarse table integrates to 2.5 % more than it states: 8 log10(1.025) = 0.09.
 TEST(Ugr, TablesOfOtherPrograms) {
   const std::filesystem::path folder = test_data() / "photometry/ldt/eulumdat-ugr";
   SCONCE_NEEDS_DATA(folder);
@@ -72,7 +98,7 @@ TEST(Ugr, TablesOfOtherPrograms) {
     }
   }
   EXPECT_EQ(cells, 950u);
-  EXPECT_GE(static_cast<double>(near), 0.88 * static_cast<double>(cells)) << near;
+  EXPECT_GE(static_cast<double>(near), 0.95 * static_cast<double>(cells)) << near;
   RecordProperty("near", static_cast<int>(near));
   std::printf("UGR: %zu of %zu cells within 0.1 of a reference\n", near, cells);
 }
