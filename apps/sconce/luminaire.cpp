@@ -63,6 +63,9 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
   }
   out.ray_flux = bins.flux();
   if (!(out.ray_flux > 0)) throw Error(file, "holds rays without flux");
+  if (const double stated = out.rays->stated; stated > 0 && std::abs(out.ray_flux / stated - 1) > 0.005)
+    progress.warn(fmt::format("{}: its header states a flux of {:.6g}, its rays hold {:.6g}", file, stated,
+                              out.ray_flux));
   out.photometry = bins.table();
   return out;
 }
