@@ -5,28 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 
-#include "core/files.h"
 #include "core/test_data.h"
-#include "core/text.h"
-#include "photometry/formats.h"
-#include "photometry/lines.h"
 #include "photometry/position_index.h"
+#include "photometry/test_ugr.h"
 
 namespace sconce {
 namespace {
-
-/// 19 x 10 values; nothing where the reference says "<10.0".
-using Reference = std::vector<std::optional<double>>;
-
-Reference read_reference(const std::filesystem::path& file) {
-  Reference out;
-  for (const std::string& line : lines_of(read_file(file)))
-    if (!trim(line).empty())
-      for (const std::string& cell : split(line, ',')) out.push_back(parse_number(trim(cell)));
-  return out;
-}
 
 TEST(Ugr, ProjectedAreas) {
   const Opening box{Opening::Shape::box, 2, Vec3(2, 3, 0.5f)},
@@ -73,34 +58,14 @@ TEST(Ugr, TablesOfOtherPrograms) {
   const std::filesystem::path folder = test_data() / "photometry/ldt/eulumdat-ugr";
   SCONCE_NEEDS_DATA(folder);
   std::size_t cells = 0, near = 0;
-  for (const char* sample : {"01", "02", "05", "06", "11"}) {
-    const UgrTable table =
-        ugr_table(read_photometry(folder / "input" / ("sample_" + std::string(sample) + ".ldt")));
-    std::vector<Reference> references;
-    for (const char* who : {"Dialux", "Relux", "cie190"}) {
-      const auto file = folder / "reference" / ("ugr_table_" + std::string(sample) + "_" + who + ".csv");
-      if (!std::filesystem::exists(file)) continue;
-      references.push_back(read_reference(file));
-      ASSERT_EQ(references.back().size(), 190u) << file;
-    }
-    ASSERT_GE(references.size(), 2u);
-    for (std::size_t i = 0; i < 190; ++i) {
-      const double ours = std::round(table.values[i / 10][i % 10] * 10) / 10;
-      double distance = 1e9, low = 1e9, high = -1e9;
-      for (const Reference& r : references) {
-        const double v = r[i].value_or(std::min(ours, 9.9));
-        distance = std::min(distance, std::abs(v - ours));
-        low = std::min(low, v), high = std::max(high, v);
-      }
-      ++cells;
-      near += distance < 0.101;
-      EXPECT_LT(std::max(low - ours, ours - high), 0.301) << sample << ", cell " << i;
-    }
+  for (const char* sample : kUgrSamples) {
+    const UgrComparison c = compare_ugr(folder, sample);
+    EXPECT_GE(c.references, 2u);
+    EXPECT_LT(c.outside, 0.301) << sample;
+    cells += c.cells, near += c.near;
   }
   EXPECT_EQ(cells, 950u);
   EXPECT_GE(static_cast<double>(near), 0.95 * static_cast<double>(cells)) << near;
-  RecordProperty("near", static_cast<int>(near));
-  std::printf("UGR: %zu of %zu cells within 0.1 of a reference\n", near, cells);
 }
 
 }  // namespace
