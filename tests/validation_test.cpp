@@ -9,6 +9,11 @@
 #include "validation/rows.h"
 
 namespace sconce::validation {
+
+void PrintTo(const SectionRow& section, std::ostream* out) {
+  *out << section.name;
+}
+
 namespace {
 
 class EverySection : public testing::TestWithParam<SectionRow> {};

@@ -21,6 +21,7 @@ constexpr Verb kActions[] = {
     {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
     {"convert", "IES to EULUMDAT and back; rays to a far field", run_luminaire_convert},
     {"field", "rays to a near-field light field", run_luminaire_field},
+    {"acquire", "photographs of a lamp to a near-field light field", run_luminaire_acquire},
     {"render", "what the lamp alone throws onto a wall", run_luminaire_render},
 };
 

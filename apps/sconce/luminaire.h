@@ -17,6 +17,7 @@ int run_luminaire_info(int argc, const char* const* argv);
 int run_luminaire_check(int argc, const char* const* argv);
 int run_luminaire_convert(int argc, const char* const* argv);
 int run_luminaire_field(int argc, const char* const* argv);
+int run_luminaire_acquire(int argc, const char* const* argv);
 int run_luminaire_render(int argc, const char* const* argv);
 
 /// The far field of a file: its table, or that of its rays or light field (.exr).
