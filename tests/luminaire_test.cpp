@@ -121,11 +121,12 @@ TEST(LuminaireVerb, InfoCheckConvert) {
   const std::string rays = (data / "tm25/Cyl10k.1.tm25ray").string();
   EXPECT_EQ(run_sconce({"luminaire", "convert", rays, "-o", ies, "--lumens", "800"}).code, 0);
   EXPECT_NEAR(flux(read_photometry(ies)), 800, 1e-6);
-  const auto copied = run_sconce({"luminaire", "convert", rays, "-o", (folder / "copy.tm25ray").string(), "--json"});
+  const auto copied =
+      run_sconce({"luminaire", "convert", rays, "-o", (folder / "copy.tm25ray").string(), "--json"});
+  ASSERT_EQ(copied.code, 0) << copied.err;
   EXPECT_NEAR(nlohmann::json::parse(copied.out).at("lumens").get<double>(), 10000, 1e-2);
-  EXPECT_NE(copied.code, 1) << copied.err;
-  const auto info = run_sconce({"luminaire", "info", (folder / "copy.tm25ray").string(), "--json"});
-  EXPECT_EQ(nlohmann::json::parse(info.out).at("rays").get<int>(), 10000);
+  const auto again = run_sconce({"luminaire", "info", (folder / "copy.tm25ray").string(), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(again.out).at("rays").get<int>(), 10000);
 }
 
 // Rays to a light field to a wall: the light field lights it as the rays do, from near, where their far field

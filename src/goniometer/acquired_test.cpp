@@ -182,7 +182,7 @@ TEST_F(Acquire, BadInputIsOneLine) {
          "acquire.toml:2: [filter] columns: is 2.5 (allowed: a whole number from 1");
   starts(with("name = \"p{m}_{n}.exr\"", "name = \"p{m}.exr\""),
          "acquire.toml:14: [pictures] name: 'p{m}.exr' lacks {n} (allowed: {m} and {n}");
-  starts(with("lux = 40", "lumens = 40"), "acquire.toml:11: [camera] lumens");
+  starts(with("lux = 40", "lumens = 40"), "acquire.toml:11: unknown key 'lumens'");
   std::string turned = good;
   const std::size_t a = turned.find("corners = [[") + 11, b = turned.find("], ", a) + 3,
                     c = turned.find("], ", b) + 3, d = turned.find("], ", c) + 3,

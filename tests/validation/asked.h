@@ -10,6 +10,10 @@ namespace sconce::validation {
 
 inline constexpr double kPiD = 3.14159265358979323846;
 
+/// Frame whose -z points along -y.
+inline const Mat4 kDown{glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, -1, 0), glm::vec4(0, 1, 0, 0),
+                        glm::vec4(0, 0, 0, 1)};
+
 class Asked : public LitScene {
  public:
   explicit Asked(Scene s) : LitScene(std::move(s), Grouping::one) {}
@@ -37,6 +41,16 @@ double polygon_lux(const std::vector<glm::dvec3>& corners, double luminance, con
 
 inline std::vector<glm::dvec3> rectangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
   return {p, p + a, p + a + b, p + b};
+}
+
+/// A measured lamp that hangs at the origin, nadir towards -y, C0 towards +x.
+inline void hang(Scene& scene, const Photometry& lamp) {
+  scene.luminaires.push_back({"lamp", lamp});
+  Light light;
+  light.intensity = Rgb(1);
+  light.frame = kDown;
+  light.shape = LuminaireLight{Id<Luminaire>(0)};
+  scene.lights.push_back(light);
 }
 
 inline Id<Material> black(Scene& scene) {

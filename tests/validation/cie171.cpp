@@ -24,9 +24,7 @@ Scene lit_patch(double size, float rho) {
            Vec3(s, 0, 0));
   Light sun;
   sun.intensity = Rgb(static_cast<float>(kLuminance * kPiD / static_cast<double>(rho)));
-  // Along -y.
-  sun.frame =
-      Mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, -1, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1));
+  sun.frame = kDown;
   sun.shape = SunLight{};
   scene.lights.push_back(sun);
   return scene;
@@ -75,13 +73,7 @@ Section cie_171(const std::filesystem::path& data) {
   const auto hung = [&](float rho) {
     Scene scene;
     add_box(scene, "room", add_material(scene, "walls", Rgb(rho)), Vec3(-2), Vec3(2), true);
-    scene.luminaires.push_back({"lamp", lamp});
-    Light light;
-    light.intensity = Rgb(1);
-    light.frame =
-        Mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, -1, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1));
-    light.shape = LuminaireLight{Id<Luminaire>(0)};
-    scene.lights.push_back(light);
+    hang(scene, lamp);
     return Asked(std::move(scene));
   };
   {

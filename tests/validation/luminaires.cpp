@@ -25,14 +25,7 @@ Photometry lambertian(double candela, double step) {
 Asked hung(const Photometry& p) {
   Scene scene;
   add_quad(scene, "floor", black(scene), Vec3(-9, -9, -9), Vec3(0, 0, 18), Vec3(18, 0, 0));
-  scene.luminaires.push_back({"lamp", p});
-  Light light;
-  light.intensity = Rgb(1);
-  // Nadir towards -y.
-  light.frame =
-      Mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, -1, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1));
-  light.shape = LuminaireLight{Id<Luminaire>(0)};
-  scene.lights.push_back(light);
+  hang(scene, p);
   return Asked(std::move(scene));
 }
 
