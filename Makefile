@@ -11,7 +11,7 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build test bench format tidy setup
+.PHONY: help demo build test bench validate format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -37,6 +37,11 @@ test: setup $(BUILD)/build.ninja ## build everything and run the tests; SUITES=a
 bench: setup ## run the benchmarks: bench/results/
 	cmake --preset release -B build/bench -DCMAKE_CXX_COMPILER=$(CXX) -DSCONCE_BENCH=ON
 	ninja -C build/bench run_bench
+
+# Values known from elsewhere beside ours.
+validate: setup $(BUILD)/build.ninja ## compute docs/validation.md
+	ninja -C $(BUILD) validation
+	$(BUILD)/tests/validation $(or $(SCONCE_TEST_DATA),../shared/data) docs/validation.md
 
 format: ## clang-format over all sources
 	@tools/setup.sh dev

@@ -2,10 +2,13 @@
 // Measured lamps from file to baked lux, and the verb `luminaire`.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "bake_job.h"
 #include "core/test_data.h"
+#include "image/io.h"
 #include "photometry/formats.h"
 #include "picture/render.h"
 #include "process.h"
@@ -118,6 +121,12 @@ TEST(LuminaireVerb, InfoCheckConvert) {
   const std::string rays = (data / "tm25/Cyl10k.1.tm25ray").string();
   EXPECT_EQ(run_sconce({"luminaire", "convert", rays, "-o", ies, "--lumens", "800"}).code, 0);
   EXPECT_NEAR(flux(read_photometry(ies)), 800, 1e-6);
+  const auto copied =
+      run_sconce({"luminaire", "convert", rays, "-o", (folder / "copy.tm25ray").string(), "--json"});
+  ASSERT_EQ(copied.code, 0) << copied.err;
+  EXPECT_NEAR(nlohmann::json::parse(copied.out).at("lumens").get<double>(), 10000, 1e-2);
+  const auto again = run_sconce({"luminaire", "info", (folder / "copy.tm25ray").string(), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(again.out).at("rays").get<int>(), 10000);
 }
 
 // Rays to a light field to a wall: the light field lights it as the rays do, from near, where their far field
@@ -151,6 +160,37 @@ TEST(LuminaireVerb, FieldAndRender) {
   EXPECT_EQ(run_sconce({"luminaire", "convert", path("lamp.exr"), "-o", path("by-product.ies")}).code, 0);
   EXPECT_NEAR(flux(read_photometry(path("by-product.ies"))) / json.at("lumens").get<double>(), 1, 0.1);
   EXPECT_EQ(run_sconce({"luminaire", "field", rays, "-o", path("x.exr"), "--basis", "box"}).code, 2);
+}
+
+// Four flat photographs of a screen: 0.5 x 8 lux on 0.1 x 0.1 m each.
+TEST(LuminaireVerb, Acquire) {
+  const TemporaryFolder folder;
+  folder.write(
+      "acquire.toml",
+      "[filter]\ncolumns = 2\nrows = 2\nspacing = 5\n[plane]\ndistance = 100\nwidth = 100\npixels = "
+      "10\n[camera]\n"
+      "corners = [[0, 40], [40, 40], [40, 0], [0, 0]]\nlux = 8\n[pictures]\nname = \"{m}-{n}.exr\"\n");
+  Image flat = Image::rgb(40, 40);
+  std::fill(flat.data.begin(), flat.data.end(), 0.5f);
+  const std::string lamp = (folder / "lamp.exr").string(), dir = folder.path().string();
+  for (const char* name : {"0-0.exr", "1-0.exr", "0-1.exr"}) write_exr(folder / name, flat, PixelType::full);
+  const auto early = run_sconce({"luminaire", "acquire", dir, "-o", lamp});
+  EXPECT_EQ(early.code, 1);
+  EXPECT_NE(early.err.find("1-1.exr: is missing: 3 of 4 positions are there"), std::string::npos)
+      << early.err;
+  std::thread camera([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    write_exr(folder / "1-1.exr", flat, PixelType::full);
+  });
+  const auto watched = run_sconce({"luminaire", "acquire", dir, "-o", lamp, "--watch", "--json"});
+  camera.join();
+  ASSERT_EQ(watched.code, 0) << watched.err;
+  EXPECT_NEAR(nlohmann::json::parse(watched.out).at("lumens").get<double>(), 4 * 4 * 0.01, 1e-6);
+  EXPECT_TRUE(std::filesystem::exists(lamp + ".preview.png"));
+  EXPECT_EQ(run_sconce(
+                {"luminaire", "render", lamp, "-o", (folder / "wall.exr").string(), "--size", "4", "--quiet"})
+                .code,
+            0);
 }
 
 TEST(LuminaireVerb, BadInput) {

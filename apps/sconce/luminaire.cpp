@@ -21,6 +21,7 @@ constexpr Verb kActions[] = {
     {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
     {"convert", "IES to EULUMDAT and back; rays to a far field", run_luminaire_convert},
     {"field", "rays to a near-field light field", run_luminaire_field},
+    {"acquire", "photographs of a lamp to a near-field light field", run_luminaire_acquire},
     {"render", "what the lamp alone throws onto a wall", run_luminaire_render},
 };
 
@@ -63,6 +64,9 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
   }
   out.ray_flux = bins.flux();
   if (!(out.ray_flux > 0)) throw Error(file, "holds rays without flux");
+  if (const double stated = out.rays->stated; stated > 0 && std::abs(out.ray_flux / stated - 1) > 0.005)
+    progress.warn(fmt::format("{}: its header states a flux of {:.6g}, its rays hold {:.6g}", file, stated,
+                              out.ray_flux));
   out.photometry = bins.table();
   return out;
 }

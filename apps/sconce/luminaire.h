@@ -9,10 +9,15 @@
 
 namespace sconce::app {
 
+/// What info and convert take, for their help.
+inline constexpr const char* kAnyLamp =
+    "IES LM-63, EULUMDAT, TM-33, GLDF, light field (.exr), TM-25, LightTools, Zemax, SPEOS or ASAP rays";
+
 int run_luminaire_info(int argc, const char* const* argv);
 int run_luminaire_check(int argc, const char* const* argv);
 int run_luminaire_convert(int argc, const char* const* argv);
 int run_luminaire_field(int argc, const char* const* argv);
+int run_luminaire_acquire(int argc, const char* const* argv);
 int run_luminaire_render(int argc, const char* const* argv);
 
 /// The far field of a file: its table, or that of its rays or light field (.exr).

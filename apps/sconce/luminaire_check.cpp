@@ -75,7 +75,8 @@ double rendered_flux(const Photometry& p) {
 
 int run_luminaire_check(int argc, const char* const* argv) {
   std::vector<std::string> files;
-  std::string diagram;
+  std::string diagram, isolux;
+  double height = 3;
   bool ugr = false;
   Options options("luminaire check",
                   "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
@@ -84,21 +85,28 @@ int run_luminaire_check(int argc, const char* const* argv) {
   options.positionals("file", &files, "IES LM-63 or EULUMDAT files", true);
   options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
   options.option("--diagram", &diagram, "write the polar diagram as SVG; with several files a folder");
+  options.option("--isolux", &isolux,
+                 "write lines of equal illuminance on the floor as SVG; with several files a folder");
+  options.option("--height", &height, "isolux: metres from the lamp down to the floor");
   if (const auto code = options.parse(argc, argv)) return *code;
+  if (!(height > 0)) throw UsageError("--height", "is not positive", "metres > 0");
   bool sick = false;
   Json report = Json::array();
-  if (!diagram.empty() && files.size() > 1) std::filesystem::create_directories(diagram);
+  for (const std::string& target : {diagram, isolux})
+    if (!target.empty() && files.size() > 1) std::filesystem::create_directories(target);
   for (const std::string& file : files) {
     const Photometry p = read_photometry(file);
     const std::vector<Finding> findings = examine(p);
     const double lumens = flux(p), rendered = rendered_flux(p);
     const std::optional<UgrTable> table = ugr_of(p);
-    if (!diagram.empty()) {
-      const std::filesystem::path stem = std::filesystem::path(file).stem();
-      write_file(files.size() > 1 ? std::filesystem::path(diagram) / (stem.string() + ".svg")
-                                  : std::filesystem::path(diagram),
-                 polar_svg(p, stem.string()));
-    }
+    const std::string stem = std::filesystem::path(file).stem().string();
+    const auto draw = [&](const std::string& target, const std::string& svg) {
+      write_file(
+          files.size() > 1 ? std::filesystem::path(target) / (stem + ".svg") : std::filesystem::path(target),
+          svg);
+    };
+    if (!diagram.empty()) draw(diagram, polar_svg(p, stem));
+    if (!isolux.empty()) draw(isolux, isolux_svg(p, stem, height));
     Json found = Json::array();
     for (const Finding& finding : findings) {
       sick |= finding.warning;

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "luminaire.h"
 #include "photometry/formats.h"
+#include "photometry/ray_writer.h"
 
 namespace sconce::app {
 
@@ -25,26 +26,66 @@ Photometry scaled(Photometry p, double lumens, const std::string& file) {
   return p;
 }
 
+/// Rays to TM-25, streamed. @return flux before and after
+std::pair<double, double> convert_rays(const std::string& file, const std::string& output, double lumens,
+                                       const Progress& progress) {
+  double before = 0, after = 0;
+  const RayFile said = read_rays(
+      file,
+      [&](std::span<const SourceRay> rays) {
+        for (const SourceRay& ray : rays) before += static_cast<double>(ray.flux);
+      },
+      progress);
+  if (lumens > 0 && !(before > 0)) throw Error(file, "has no light that could be scaled to --lumens");
+  RayWriter writer(output, said.luminous || lumens > 0);
+  const auto scale = static_cast<float>(lumens > 0 ? lumens / before : 1);
+  std::vector<SourceRay> block;
+  read_rays(
+      file,
+      [&](std::span<const SourceRay> rays) {
+        block.assign(rays.begin(), rays.end());
+        for (SourceRay& ray : block) after += static_cast<double>(ray.flux *= scale);
+        writer.add(block);
+      },
+      progress);
+  writer.finish();
+  return {before, after};
+}
+
 }  // namespace
 
 int run_luminaire_convert(int argc, const char* const* argv) {
   std::string file, output;
   double lumens = 0, step = 5;
-  Options options("luminaire convert",
-                  "A photometric file in another format, or the far field of rays or a light field.");
-  options.positional("file", &file,
-                     "IES LM-63, EULUMDAT, TM-33, light field (.exr), TM-25, LightTools or Zemax rays");
-  options.option("-o,--output", &output, "file to write: .ies (LM-63-2002) or .ldt (EULUMDAT)");
+  Options options(
+      "luminaire convert",
+      "A photometric file in another format, the far field of rays or a light field, or rays to TM-25.");
+  options.positional("file", &file, kAnyLamp);
+  options.option("-o,--output", &output,
+                 "file to write: .ies (LM-63-2002), .ldt (EULUMDAT); of rays also .tm25ray");
   options.option("--lumens", &lumens, "scale to this luminous flux; 0 = as it is");
   options.option("--step", &step, "rays, light fields: degrees between angles of the table");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (output.empty()) throw UsageError("-o", "is missing", "a file .ies or .ldt");
+  if (output.empty()) throw UsageError("-o", "is missing", "a file .ies, .ldt or .tm25ray");
   if (!(lumens >= 0)) throw UsageError("--lumens", "is negative", "lumens >= 0");
   if (!(step >= 0.5 && step <= 30)) throw UsageError("--step", "is out of range", "0.5 to 30 degrees");
   const std::string type = lower(std::filesystem::path(output).extension().string());
-  if (type != ".ies" && type != ".ldt")
-    throw UsageError("-o", "'" + output + "' names no format", ".ies, .ldt");
-  LuminaireSource source = read_luminaire(file, step, make_progress(options));
+  if (type != ".ies" && type != ".ldt" && type != ".tm25ray")
+    throw UsageError("-o", "'" + output + "' names no format", ".ies, .ldt, .tm25ray");
+  const Progress progress = make_progress(options);
+  const auto report = [&](double before, double after) {
+    if (options.json)
+      fmt::print("{}\n",
+                 nlohmann::json{{"file", output}, {"lumens", after}, {"lumens_before", before}}.dump(2));
+    else if (!options.quiet)
+      fmt::print("{}: {:.1f} lm ({:+.3f} %)\n", output, after, before > 0 ? 100 * (after / before - 1) : 0.0);
+    return kDone;
+  };
+  if (type == ".tm25ray") {
+    const auto [before, after] = convert_rays(file, output, lumens, progress);
+    return report(before, after);
+  }
+  LuminaireSource source = read_luminaire(file, step, progress);
   if (source.rays && !source.rays->luminous && !(lumens > 0))
     throw UsageError("--lumens", "is needed: the rays of " + file + " are in watts",
                      "the lamp's luminous flux");
@@ -52,14 +93,7 @@ int run_luminaire_convert(int argc, const char* const* argv) {
       lumens > 0 ? scaled(std::move(source.photometry), lumens, file) : std::move(source.photometry);
   const std::string text = type == ".ies" ? write_ies(p) : write_ldt(p);
   write_file(output, text);
-  const double before = flux(p),
-               after = flux(type == ".ies" ? parse_ies(text, output) : parse_ldt(text, output));
-  if (options.json)
-    fmt::print("{}\n",
-               nlohmann::json{{"file", output}, {"lumens", after}, {"lumens_before", before}}.dump(2));
-  else if (!options.quiet)
-    fmt::print("{}: {:.1f} lm ({:+.3f} %)\n", output, after, before > 0 ? 100 * (after / before - 1) : 0.0);
-  return kDone;
+  return report(flux(p), flux(type == ".ies" ? parse_ies(text, output) : parse_ldt(text, output)));
 }
 
 }  // namespace sconce::app

@@ -19,8 +19,7 @@ constexpr double kRayStep = 5;  // degrees
 int run_luminaire_info(int argc, const char* const* argv) {
   std::string file;
   Options options("luminaire info", "What a photometric file (.ies, .ldt) or a ray file says.");
-  options.positional("file", &file,
-                     "IES LM-63, EULUMDAT, TM-33, light field (.exr), TM-25, LightTools or Zemax rays");
+  options.positional("file", &file, kAnyLamp);
   if (const auto code = options.parse(argc, argv)) return *code;
   const Progress progress = make_progress(options);
   const LuminaireSource source = read_luminaire(file, kRayStep, progress);

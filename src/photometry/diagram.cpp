@@ -24,19 +24,6 @@ double ring_step(double peak) {
   return 10 * power;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// The curve through C (to the right) and C + 180 (to the left).
 std::string curve(const Photometry& p, double c, double scale) {
   std::string points;
@@ -51,6 +38,19 @@ std::string curve(const Photometry& p, double c, double scale) {
 
 }  // namespace
 
+std::string escaped_xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
 std::string polar_svg(const Photometry& given, const std::string& title) {
   const Photometry p = as_type_c(given);
   const double peak = std::max(peak_of(p).candela, 1e-9), step = ring_step(peak);
@@ -61,7 +61,7 @@ std::string polar_svg(const Photometry& given, const std::string& title) {
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{2}\" y=\"20\" text-anchor=\"middle\" font-size=\"13\">{3}</text>\n<g stroke=\"#ccc\" "
       "fill=\"none\">\n",
-      2 * kCentre, 2 * kCentre + kTitle + 20, kCentre, escaped(title));
+      2 * kCentre, 2 * kCentre + kTitle + 20, kCentre, escaped_xml(title));
   for (int ring = 1; ring <= rings; ++ring)
     out += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:.1f}\"/>\n", kCentre, y, ring * step * scale);
   for (int angle = 0; angle < 180; angle += 30) {

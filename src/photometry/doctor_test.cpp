@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "core/test_data.h"
 #include "photometry/diagram.h"
 #include "photometry/formats.h"
@@ -67,6 +70,24 @@ TEST(Diagram, IsWellFormed) {
   EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+// 100 cd all around, 1 m above: E = 100 cos3, so 50 lx lie where cos3 = 1/2, at sqrt(2^(2/3) - 1) m; a metre
+// is 100 units.
+TEST(Diagram, IsoluxLinesLieWhereTheyShould) {
+  const std::string svg = isolux_svg(uniform(), "lamp", 1);
+  EXPECT_NE(svg.find("50 lx</text>"), std::string::npos);
+  const std::size_t path = svg.find("<path d=\"M") + 9;
+  const std::string text = svg.substr(path, svg.find('"', path) - path);
+  const double radius = 100 * std::sqrt(std::pow(2, 2.0 / 3) - 1);
+  int points = 0;
+  for (std::size_t at = text.find_first_of("ML"); at != std::string::npos;
+       at = text.find_first_of("ML", at + 1), ++points) {
+    double x = 0, y = 0;
+    ASSERT_EQ(std::sscanf(text.c_str() + at + 1, "%lf,%lf", &x, &y), 2);
+    EXPECT_NEAR(std::hypot(x - 250, y - 280), radius, 0.3);
+  }
+  EXPECT_GT(points, 100);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class Reader {
     const std::size_t tilt = find_tilt();
     read_header(tilt);
     Numbers numbers(lines_, tilt + 1, where_);
-    read_tilt(trim(lines_[tilt].substr(lines_[tilt].find('=') + 1)), numbers);
+    read_tilt(trim(lines_[tilt].substr(lines_[tilt].find('=') + 1)), at(tilt), numbers);
     read_table(numbers);
     if (numbers.more()) note(numbers.line(), "text after the last candela value is ignored");
     return std::move(out_);
@@ -111,7 +111,7 @@ class Reader {
     return std::nullopt;
   }
 
-  void read_tilt(const std::string& tilt, Numbers& numbers) {
+  void read_tilt(const std::string& tilt, const std::string& place, Numbers& numbers) {
     if (tilt == "NONE") return;
     if (tilt == "INCLUDE") {
       read_tilt_table(numbers);
@@ -120,7 +120,7 @@ class Reader {
     const std::filesystem::path file = folder_ / tilt;
     std::error_code ec;
     if (tilt.empty() || folder_.empty() || !std::filesystem::is_regular_file(file, ec))
-      throw Error(where_, "TILT file '" + tilt + "' is not there",
+      throw Error(place, "TILT file '" + tilt + "' is not there",
                   "TILT=NONE, TILT=INCLUDE or a file beside this one");
     const std::vector<std::string> lines = lines_of(read_file(file));
     Numbers other(lines, 0, file.string());

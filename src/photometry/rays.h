@@ -28,9 +28,11 @@ struct RayFile {
   double stated = 0;     ///< flux of all rays by the header, 0 = not said
 };
 
-/// TM-25 (.tm25ray), LightTools (.ray) and Zemax (.dat, .ray) by content, in blocks, so that memory stays
-/// small. Light that goes along +z of the file goes towards nadir here: the file's y and z are turned about
-/// x.
+/// TM-25 (.tm25ray), LightTools (.ray, binary and text), Zemax (.dat, .sdf, binary and text), SPEOS (.ray)
+/// and ASAP
+/// (.dis) by content, in blocks, so that memory stays small. Light that goes along +z of the file goes
+/// towards nadir here: the file's y and z are turned about x. What a file leaves open about its units is a
+/// warning.
 /// @param sink  called with blocks of rays in file order
 /// @throws NotMyFormat, Error: cut short, sizes that do not agree
 RayFile read_rays(const std::filesystem::path& path,

@@ -4,14 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <cmath>
 #include <fstream>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/sobol.h"
 #include "core/test_data.h"
+#include "core/test_folder.h"
 #include "core/text.h"
+#include "photometry/light_field.h"
 #include "photometry/lines.h"
+#include "photometry/ray_writer.h"
 
 namespace sconce {
 namespace {
@@ -28,11 +34,12 @@ std::vector<SourceRay> all_rays(const std::filesystem::path& path, RayFile* file
   return out;
 }
 
-// Three rays that the folder also holds as text; light along +z of the file goes to nadir.
-TEST(Rays, ThreeRaysInThreeLayouts) {
+// Three rays, binary and as text; light along +z of the file goes to nadir.
+TEST(Rays, ThreeRaysInFourLayouts) {
   SCONCE_NEEDS_DATA(folder());
-  for (const char* name : {"ThreeRays_PowerOnly.1.ray", "ThreeRays_Wavelength.1.ray",
-                           "ThreeRays_Wavelength_ZMX.ray", "ThreeRays_Wavelength_ZMW_to_LT.ray"}) {
+  for (const char* name :
+       {"ThreeRays_PowerOnly.1.ray", "ThreeRays_Wavelength.1.ray", "ThreeRays_Wavelength_ZMX.ray",
+        "ThreeRays_Wavelength_ZMW_to_LT.ray", "ThreeRays_Wavelength.1.txt"}) {
     const auto rays = all_rays(folder() / "RayFileConverter" / name);
     ASSERT_EQ(rays.size(), 3u) << name;
     EXPECT_NEAR(rays[0].position.x, -0.6668399e-3f, 1e-9f) << name;
@@ -127,10 +134,123 @@ TEST(Rays, FarFieldIsTheOneTheyWereDrawnFrom) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(compared)), 0.1);
 }
 
+template <class... T>
+std::string bytes_of(T... values) {
+  std::string out;
+  (out.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+  return out;
+}
+
+// The other layouts, as public readers of them describe them: two rays at (1, 2, 3) mm, along +z and (0, 0.6,
+// 0.8).
+TEST(Rays, OtherLayouts) {
+  const TemporaryFolder folder;
+  const auto expect_two = [&](const std::filesystem::path& path, const char* format, bool luminous,
+                              bool placed) {
+    RayFile file;
+    const auto rays = all_rays(path, &file);
+    EXPECT_EQ(file.format, format);
+    EXPECT_EQ(file.luminous, luminous) << format;
+    ASSERT_EQ(rays.size(), 2u) << format;
+    EXPECT_LT(glm::length(rays[1].position - (placed ? Vec3(1, -2, -3) : Vec3(7, -8, -9)) * 1e-3f), 1e-8f)
+        << format;
+    EXPECT_LT(glm::length(rays[0].direction - Vec3(0, 0, -1)), 1e-6f) << format;
+    EXPECT_LT(glm::length(rays[1].direction - Vec3(0, -0.6f, -0.8f)), 1e-6f) << format;
+    EXPECT_EQ(rays[0].flux, 0.25f) << format;
+    EXPECT_EQ(rays[1].flux, 0.5f) << format;
+  };
+  const auto ray = [](float dy, float dz) { return bytes_of(1.0f, 2.0f, 3.0f, 0.0f, dy, dz); };
+  expect_two(
+      folder.write("speos.ray", bytes_of(0.75f, 0, 0, 0, 0, 0, 200.0f) + ray(0, 1) + bytes_of(550.0f, 0.25f) +
+                                    ray(0.6f, 0.8f) + bytes_of(620.0f, 0.5f)),
+      "SPEOS", false, true);
+  std::string asap =
+      bytes_of(4 * 256 * 7 + 247) + std::string(104, '\0') + bytes_of(-2) + std::string(28, '\0');
+  expect_two(folder.write("rays.dis", asap + ray(0, 1) + bytes_of(0.25f) + ray(0.6f, 0.8f) + bytes_of(0.5f)),
+             "ASAP", false, true);
+  expect_two(folder.write("far.ray", "LTRF" +
+                                         bytes_of(2, 0, 1, 1, 0, 1, 7.0f, 8.0f, 9.0f, 0.75f, 0.0f, 0.0f, 1.0f,
+                                                  0.25f, 0.0f, 0.6f, 0.8f, 0.5f) +
+                                         "LTRFEND"),
+             "LightTools", true, false);
+  expect_two(folder.write("zemax.dat", "2 4\n1 2 3 0 0 1 0.25\n1 2 3 0 +6e-1 0.8 0.5 0.55\n"), "Zemax text",
+             true, true);
+  const auto error = [&](const char* name, const std::string& text) {
+    try {
+      all_rays(folder.write(name, text));
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(error("a.dat", "2 4\n1 2 3 0 0 1 0.25\n1 2 x\n").find("a.dat:3: is no ray"), std::string::npos);
+  EXPECT_NE(
+      error("a.dat", "2 4\n1 2 3 0 0 1 0.25\n").find("a.dat:2: holds 1 rays where its first line says 2"),
+      std::string::npos);
+  EXPECT_NE(error("a.dat", "2 9\n").find("a.dat:1: has the unit code 9"), std::string::npos);
+  EXPECT_NE(
+      error("a.ray", "# LightTools 9\nlt_datatype: photons\n").find("a.ray:2: has the data type 'photons'"),
+      std::string::npos);
+  EXPECT_NE(error("a.ray", "# LightTools 9\nlt_startofdata\n1 2 3 0 0 1 1\n")
+                .find("a.ray:3: ends before lt_endofdata"),
+            std::string::npos);
+}
+
+/// Peak memory of this process, bytes.
+double peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+// A Lambertian disk of 1.5 M rays with unequal flux, 42 MB: every way through keeps the flux, memory stays
+// far below the file.
+TEST(Rays, ManyRaysAreStreamedAndKeepTheirFlux) {
+  constexpr uint64_t kRays = 1500000;
+  const TemporaryFolder folder;
+  const auto path = folder / "many.tm25ray";
+  RayWriter writer(path, true);
+  std::vector<SourceRay> block;
+  double written = 0;
+  for (uint64_t i = 0; i < kRays; ++i) {
+    const Vec2 a = sobol_pair(static_cast<uint32_t>(i), 0, 7), b = sobol_pair(static_cast<uint32_t>(i), 1, 7);
+    const float r = 0.02f * std::sqrt(a.x), phi = 6.2831853f * a.y, s = std::sqrt(b.x),
+                psi = 6.2831853f * b.y;
+    block.push_back({{r * std::cos(phi), r * std::sin(phi), 0},
+                     {s * std::cos(psi), s * std::sin(psi), -std::sqrt(1 - b.x)},
+                     1e-3f * (0.1f + a.x)});
+    written += static_cast<double>(block.back().flux);
+    if (block.size() == 10000) writer.add(block), block.clear();
+  }
+  writer.finish();
+  FarFieldBins bins(24, 36);
+  LightFieldBuilder builder(
+      make_light_field(NearBasis::spline, Vec2(-0.02f), Vec2(0.02f), 0.01, 0.1, 0.1, 24));
+  std::size_t largest = 0;
+  const double before = peak_memory();
+  const RayFile file = read_rays(path, [&](std::span<const SourceRay> rays) {
+    largest = std::max(largest, rays.size());
+    bins.add(rays);
+    builder.add(rays);
+  });
+  EXPECT_LT(peak_memory() - before, 16e6);
+  EXPECT_LE(largest, 65536u);
+  EXPECT_EQ(file.rays, kRays);
+  EXPECT_NEAR(file.stated / written, 1, 1e-7) << "a 32-bit float in the header";
+  EXPECT_NEAR(bins.flux() / written, 1, 1e-9);
+  EXPECT_NEAR(flux(bins.table()) / written, 1, 1e-9);
+  EXPECT_NEAR((builder.kept() + builder.lost()) / written, 1, 1e-9);
+  const double kept = builder.kept();
+  EXPECT_NEAR(flux(std::move(builder).finish()) / kept, 1, 1e-7) << "its pixels are 32-bit floats";
+  EXPECT_NEAR(intensity(bins.table(), Vec3(0, 0.6f, -0.8f)) / (0.8 * written / M_PI), 1, 0.04)
+      << "Lambert, 5,000 rays a bin";
+}
+
 TEST(Rays, DamageIsNamed) {
   SCONCE_NEEDS_DATA(folder());
   const std::string whole = read_file(folder() / "Cyl10k.1.tm25ray");
-  const auto file = std::filesystem::temp_directory_path() / "sconce-damaged.tm25ray";
+  const TemporaryFolder scratch;
+  const auto file = scratch / "damaged.tm25ray";
   const auto error = [&](std::string bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
     try {
@@ -146,7 +266,6 @@ TEST(Rays, DamageIsNamed) {
   std::string bad = whole;
   bad[36288 + 28 * 3 + 12 + 3] = '\x7f';  // the fourth ray's direction
   EXPECT_NE(error(bad).find("no ray at number 4"), std::string::npos);
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -6,20 +6,29 @@
 namespace sconce {
 
 Photometry read_photometry(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  try {
+    return read_gldf(path);
+  } catch (const NotMyFormat&) {
+  }
+  return parse_photometry(read_file(path), path.string(),
+                          path.parent_path().empty() ? "." : path.parent_path());
+}
+
+Photometry parse_photometry(std::string_view text, const std::string& where,
+                            const std::filesystem::path& folder) {
   // XML first: its text may hold anything.
   try {
-    return parse_tm33(text, path.string());
+    return parse_tm33(text, where);
   } catch (const NotMyFormat&) {
   }
   try {
-    return parse_ies(text, path.string(), path.parent_path().empty() ? "." : path.parent_path());
+    return parse_ies(text, where, folder);
   } catch (const NotMyFormat&) {
   }
   try {
-    return parse_ldt(text, path.string());
+    return parse_ldt(text, where);
   } catch (const NotMyFormat&) {
-    throw NotMyFormat(path.string(), "is no photometric file that can be read", "IES LM-63, EULUMDAT, TM-33");
+    throw NotMyFormat(where, "is no photometric file that can be read", "IES LM-63, EULUMDAT, TM-33, GLDF");
   }
 }
 

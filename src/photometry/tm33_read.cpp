@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place that names pugixml.
+// The XML itself is read by pugixml.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,6 +34,7 @@ class Reader {
       throw NotMyFormat(where_, "is no TM-33 file");
     out_.format = "TM-33";
     read_header(root.child("Header"));
+    read_sizes(root.child("Luminaire").child("Dimensions"));
     const auto emitters = root.children("Emitter");
     const auto count = std::distance(emitters.begin(), emitters.end());
     if (count != 1)
@@ -44,12 +45,13 @@ class Reader {
   }
 
  private:
-  /// "lamp.xml:12" of a byte of the file.
-  std::string place(std::ptrdiff_t offset) const {
+  std::ptrdiff_t line_of(std::ptrdiff_t offset) const {
     const auto end =
         text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return fmt::format("{}:{}", where_, 1 + std::count(text_.begin(), end, '\n'));
+    return 1 + std::count(text_.begin(), end, '\n');
   }
+  /// "lamp.xml:12" of a byte of the file.
+  std::string place(std::ptrdiff_t offset) const { return fmt::format("{}:{}", where_, line_of(offset)); }
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what,
                          const std::string& allowed = {}) const {
     throw Error(place(node.offset_debug()), what, allowed);
@@ -84,25 +86,64 @@ class Reader {
     lamp.rendering = trim(emitter.child("ColorRendering").child_value("Ra"));
     out_.lamps = {lamp};
     out_.absolute = true;  // TM-33 gives candela as measured
-    const pugi::xml_node data = emitter.child("LuminousData").child("LuminousIntensity");
+    const pugi::xml_node luminous = emitter.child("LuminousData");
+    // Both layouts are about: values in LuminousIntensity, or in LuminousData itself.
+    const pugi::xml_node inner = luminous.child("LuminousIntensity"), data = inner ? inner
+                                                                             : luminous.child("IntensityData")
+                                                                                 ? luminous
+                                                                                 : pugi::xml_node();
     if (!data) fail(emitter, "has no LuminousData with LuminousIntensity");
+    for (const char* name : {"PhotometryType", "GonioType"})
+      if (const std::string type = last_letter(data.child_value(name)); !type.empty() && type != "C")
+        fail(data.child(name), "is photometry of type " + type, "type C; another as LM-63");
+    if (const std::string metric = trim(data.child_value("Metric")); !metric.empty() && metric != "Luminous")
+      fail(data.child("Metric"), "holds the metric '" + metric + "'", "Luminous");
     read_intensity(data);
+    if (emitter.child("SpectralDistribution") || emitter.child("SpectralData"))
+      note(emitter, "the emitter's spectrum is not used: the lamp is white unless a scene says otherwise");
+  }
+
+  /// "CIE _ B", "TypeB", "B" name their type last.
+  static std::string last_letter(const std::string& text) {
+    const std::string type = trim(text);
+    return type.empty() ? type : type.substr(type.size() - 1);
+  }
+
+  /// TM-33 measures the housing; where and how large it shines it does not say.
+  void read_sizes(const pugi::xml_node& dimensions) {
+    if (!dimensions) return;
+    const double length = number(dimensions, "Length", 0), width = number(dimensions, "Width", 0),
+                 height = number(dimensions, "Height", 0);
+    if (length < 0 || width < 0 || height < 0) fail(dimensions, "has a negative size", "sizes from 0 on");
+    if (length > 0 || width > 0)
+      note(dimensions,
+           fmt::format("the housing of {:g} x {:g} x {:g} is no luminous opening: the lamp is a point",
+                       length, width, height));
+  }
+  void note(const pugi::xml_node& node, const std::string& what) {
+    out_.notes.push_back(fmt::format("line {}: {}", line_of(node.offset_debug()), what));
   }
 
   void read_intensity(const pugi::xml_node& data) {
     const double multiplier = number(data, "Multiplier", 1);
     std::map<double, std::map<double, double>> planes;  // h -> v -> cd
-    int count = 0;
-    for (const pugi::xml_node& node : data.children("IntData")) {
+    int count = 0, negative = 0;
+    const bool long_names = bool(data.child("IntensityData"));
+    const char *name = long_names ? "IntensityData" : "IntData", *across = long_names ? "horz" : "h",
+               *down = long_names ? "vert" : "v";
+    for (const pugi::xml_node& node : data.children(name)) {
       if (++count > kMostValues) fail(node, "holds too many values");
-      const double h = value(node, trim(node.attribute("h").value())),
-                   v = value(node, trim(node.attribute("v").value()));
+      const double h = value(node, trim(node.attribute(across).value())),
+                   v = value(node, trim(node.attribute(down).value()));
       if (!(h >= 0 && h <= 360 && v >= 0 && v <= 180))
         fail(node, fmt::format("lies at h = {}, v = {}", h, v), "h from 0 to 360, v from 0 to 180");
-      if (!planes[h].emplace(v, std::max(0.0, multiplier * value(node, trim(node.child_value())))).second)
+      const double candela = multiplier * value(node, trim(node.child_value()));
+      negative += candela < 0;
+      if (!planes[h].emplace(v, std::max(0.0, candela)).second)
         fail(node, fmt::format("h = {}, v = {} stands twice", h, v));
     }
     if (planes.empty()) fail(data, "holds no IntData");
+    if (negative > 0) note(data, fmt::format("{} candela values are negative and count as 0", negative));
     std::vector<double> azimuths, candela;
     for (const auto& [v, cd] : planes.begin()->second) out_.polars.push_back(v);
     for (const auto& [h, plane] : planes) {

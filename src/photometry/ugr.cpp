@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "photometry/position_index.h"
 
 namespace sconce {
 
@@ -13,11 +14,6 @@ namespace {
 constexpr double kPiD = std::numbers::pi, kDegree = kPiD / 180;
 constexpr double kHeight = 2;  // metres above the eye; the table does not depend on it
 constexpr int kPerHeight = 4;  // lamps in a row of one height
-
-double position_index(double alpha, double beta) {
-  return std::exp((35.2 - 0.31889 * alpha - 1.22 * std::exp(-2 * alpha / 9)) * 1e-3 * beta +
-                  (21 + 0.26667 * alpha - 0.002963 * alpha * alpha) * 1e-5 * beta * beta);
-}
 
 /// Form factor between parallel rectangles a x b at distance 1 (methods.md test 4).
 double facing(double x, double y) {
@@ -79,17 +75,16 @@ double glare(const Photometry& p, const UgrTable::Room& room, double turn) {
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const double lateral = (column + 0.5) / kPerHeight - room.x / 2, ahead = (row + 0.5) / kPerHeight;
-      if (1 / ahead > 1.9 || std::abs(lateral) / ahead > 3) continue;
+      const auto index = position_index(std::abs(lateral) / ahead, 1 / ahead);
+      if (!index) continue;
       const double r = std::sqrt(lateral * lateral + ahead * ahead + 1);
       // From the lamp to the eye; the plane at angle 0 of the room looks to the side, at 90 ahead.
       const double c = std::atan2(-ahead, -lateral) / kDegree - turn;
       const double gamma = std::acos(1 / r) / kDegree, azimuth = c - 360 * std::floor(c / 360);
       const double candela = intensity_at(p, azimuth, gamma);
       const double area = projected_area(p.opening, direction_of(Photometry::Type::c, azimuth, gamma));
-      const double index =
-          position_index(std::atan(std::abs(lateral)) / kDegree, std::acos(ahead / r) / kDegree);
       const double distance = r * kHeight;
-      sum += candela * candela / (area * distance * distance * index * index);
+      sum += candela * candela / (area * distance * distance * *index * *index);
     }
   return sum;
 }

@@ -45,8 +45,7 @@ struct UgrTable {
 
 /// UGR = 8 log10(0.25 / Lb x sum L2 w / p2) (CIE 117) by the tabular method of CIE 190: lamps in the ceiling
 /// a quarter of their height above the eye apart, the eye in the middle of the wall, Lb = indirect
-/// illuminance of the walls / pi from three diffuse surfaces between eye and lamps. Position index p: Levin's
-/// formula; lamps with height / distance above 1.9 or lateral / distance above 3 do not count.
+/// illuminance of the walls / pi from three diffuse surfaces between eye and lamps, p = position_index().
 /// @throws Error where the luminaire has no luminous area
 UgrTable ugr_table(const Photometry& photometry);
 
