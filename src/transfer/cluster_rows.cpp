@@ -3,8 +3,6 @@
 
 #include <Eigen/Dense>
 
-#include "core/parallel.h"
-
 namespace sconce {
 
 namespace {
@@ -127,30 +125,6 @@ ClusterRowsBuilder::Result ClusterRowsBuilder::finish() {
   result.rows = {rows_, params_.cluster, basis.rows, owned->weights, owned->scales};
   result.owner = std::move(owned);
   return result;
-}
-
-void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
-  std::vector<Rgb> sums(kRank * rows.clusters());
-  multiply(rows.basis, light, sums);
-  const std::size_t groups = rows.weights.size() / (kRank * kLanes);
-  constexpr std::size_t kGrain = 256;
-  parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
-    for (std::size_t g = part * kGrain; g < std::min(groups, (part + 1) * kGrain); ++g) {
-      const std::size_t first = g * kLanes;
-      const Rgb* basis = sums.data() + first / rows.cluster * kRank;
-      const int16_t* weights = rows.weights.data() + g * kRank * kLanes;
-      float red[kLanes] = {}, green[kLanes] = {}, blue[kLanes] = {};
-      for (std::size_t j = 0; j < kRank; ++j)
-        for (std::size_t r = 0; r < kLanes; ++r) {
-          const float w = static_cast<float>(weights[j * kLanes + r]);
-          red[r] += w * basis[j].r;
-          green[r] += w * basis[j].g;
-          blue[r] += w * basis[j].b;
-        }
-      for (std::size_t r = 0; r < std::min(kLanes, rows.rows - first); ++r)
-        out[first + r] = rows.scales[first + r] * Rgb(red[r], green[r], blue[r]);
-    }
-  });
 }
 
 }  // namespace sconce
