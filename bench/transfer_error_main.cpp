@@ -21,10 +21,15 @@ namespace {
 /// other one a spot.
 std::vector<Light> random_lamps(const View& view, const Operator& op, int count, uint32_t seed) {
   std::vector<Light> lamps;
+  // By places, whatever the operator's own order is.
+  std::vector<std::pair<uint32_t, uint32_t>> by_place;
+  for (uint32_t i = 0; i < op.places.size(); ++i) by_place.emplace_back(op.places[i], i);
+  std::sort(by_place.begin(), by_place.end());
   for (uint32_t i = 0; static_cast<int>(lamps.size()) < count && i < 10000; ++i) {
     Sampler sampler(seed, 0x6c616d70u, i);
     const Vec2 pick = sampler.next(), along = sampler.next(), aim = sampler.next(), shape = sampler.next();
-    const auto& r = op.receivers[static_cast<std::size_t>(pick.x * static_cast<float>(op.receivers.size()))];
+    const auto& r =
+        op.receivers[by_place[static_cast<std::size_t>(pick.x * static_cast<float>(by_place.size()))].second];
     const Vec3 from(r.position[0], r.position[1], r.position[2]), n = unpack_normal(r.geometric);
     Vec3 direction = Frame(n).to_world(square_to_cosine(along));
     float distance = view.tracer().closest({offset_origin(from, n, direction), direction}).distance;

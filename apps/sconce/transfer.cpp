@@ -73,7 +73,7 @@ int run_transfer(int argc, const char* const* argv) {
       const PictureParams size = picture.params(camera);
       receivers = pixel_receivers(view, camera, size.width, size.height);
     }
-    op = make_operator(view, receivers, params, operator_scene(package), progress);
+    op = make_operator(view, receivers, params, operator_scene(package), {progress});
     op.options = options_text(options);
     path = operator_path(package.path(), picture.camera);
     std::error_code ec;

@@ -4,7 +4,9 @@
 // the light of lamps at many places.
 #pragma once
 
+#include "core/ranks.h"
 #include "relight/receivers.h"
+#include "relight/transfer_state.h"
 
 namespace sconce {
 
@@ -19,12 +21,19 @@ struct TransferParams {
   uint32_t seed = 1;
 };
 
-/// Rows stream through compression block by block; F is never held whole. The same bits at any number of
-/// threads.
+/// How the work is done; nothing of it changes the result.
+struct TransferWork {
+  Progress progress;
+  Ranks ranks;                     ///< share the rows; each makes cloud and training lights
+  TransferState* state = nullptr;  ///< keeps finished rows of F, to go on after an interruption; may be null
+};
+
+/// Rows stream through compression cluster by cluster; F is never held whole. The same bits at any number of
+/// threads and ranks.
 /// @param scene  hash that ties the file to its package: operator_scene()
 /// @throws UsageError naming the option; Cancelled
 Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
-                       const std::string& scene, const Progress& progress = {});
+                       const std::string& scene, const TransferWork& work = {});
 
 /// Identity of what an operator depends on in a package: geometry, materials, texels.
 std::string operator_scene(const Package& package);

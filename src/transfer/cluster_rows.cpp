@@ -3,6 +3,9 @@
 
 #include <Eigen/Dense>
 
+#include "core/ranks.h"
+#include "core/sobol.h"
+
 namespace sconce {
 
 namespace {
@@ -29,17 +32,31 @@ Matrix answers(std::span<const std::vector<SparseEntry>> rows, const TrainingLig
   return out;
 }
 
-/// Orthonormal columns that hold as much of the answers as sixteen can, by their principal components.
+/// Orthonormal columns that hold nearly as much of the answers as sixteen can: a randomised range finder
+/// with subspace iterations (Halko, Martinsson and Tropp 2011), then its principal components.
 Matrix principal(const Matrix& answers) {
-  const Eigen::MatrixXf gram = answers.transpose() * answers;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(gram);
-  Matrix out = Matrix::Zero(answers.rows(), static_cast<Eigen::Index>(kRank));
-  const Eigen::Index n = gram.rows(), used = std::min<Eigen::Index>(n, kRank);
+  constexpr Eigen::Index kMore = 8;  // than are kept
+  constexpr int kIterations = 3;
+  const auto rank = static_cast<Eigen::Index>(kRank);
+  const Eigen::Index n = std::min({answers.rows(), answers.cols(), rank + kMore});
+  Eigen::MatrixXf range(answers.cols(), n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index t = 0; t < answers.cols(); ++t)
+      range(t, j) =
+          sobol_pair(static_cast<uint32_t>(t), 0, mix32(0x72616e67u, static_cast<uint32_t>(j))).x - 0.5f;
+  Eigen::MatrixXf basis;
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::MatrixXf image = answers * range;
+    basis = Eigen::HouseholderQR<Eigen::MatrixXf>(image).householderQ() *
+            Eigen::MatrixXf::Identity(answers.rows(), n);
+    range = answers.transpose() * basis;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(range.transpose() * range);
+  Matrix out = Matrix::Zero(answers.rows(), rank);
   const float largest = solver.eigenvalues()(n - 1);
-  for (Eigen::Index j = 0; j < used; ++j) {
-    const float value = solver.eigenvalues()(n - 1 - j);
-    if (!(value > 1e-6f * largest)) break;
-    out.col(j) = answers * solver.eigenvectors().col(n - 1 - j) / std::sqrt(value);
+  for (Eigen::Index j = 0; j < std::min(n, rank); ++j) {
+    if (!(solver.eigenvalues()(n - 1 - j) > 1e-6f * largest)) break;
+    out.col(j) = basis * solver.eigenvectors().col(n - 1 - j);
   }
   return out;
 }
@@ -110,6 +127,18 @@ void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::v
         basis[k][j] += more(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j));
   }
   basis_.set_block(cluster, chosen, basis);
+}
+
+void ClusterRowsBuilder::pack(std::size_t cluster, std::string& bytes) const {
+  basis_.pack(cluster, bytes);
+  put_span(bytes, part(weights_, cluster, kRank));
+  put_span(bytes, part(scales_, cluster, 1));
+}
+
+void ClusterRowsBuilder::unpack(std::size_t cluster, std::string_view& bytes) {
+  basis_.unpack(cluster, bytes);
+  take_span(bytes, part(weights_, cluster, kRank));
+  take_span(bytes, part(scales_, cluster, 1));
 }
 
 ClusterRowsBuilder::Result ClusterRowsBuilder::finish() {
