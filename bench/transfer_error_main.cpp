@@ -12,6 +12,7 @@
 #include "relight/moved_lamps.h"
 #include "relight/receivers.h"
 #include "solve/solver.h"
+#include "transfer/folded_bounces.h"
 
 using namespace sconce;
 
@@ -98,13 +99,16 @@ int main(int argc, char** argv) {
                   std::span(truth).subspan(k * groups, groups));
   });
 
+  const FoldedBounces bounces(op);
+  std::vector<Rgb> indirect(op.gather.rows);
   Errors by_kind[2];
   for (std::size_t g = 0; g < groups; ++g) {
     const MovedLamps moved(view.scene(), view.world(), view.tracer(), {lamps[g]}, {});
     const auto start = std::chrono::steady_clock::now();
     std::vector<Rgbx> light = light_cloud(op, moved);
     const auto lit = std::chrono::steady_clock::now();
-    const std::vector<Rgb> indirect = indirect_light(op, light);
+    bounces.apply(light);
+    multiply(op.gather, light, indirect);
     const std::chrono::duration<double, std::milli> cloud = lit - start,
                                                     took = std::chrono::steady_clock::now() - lit;
     double sum = 0, expected = 0, squares = 0, noise = 0;
@@ -127,6 +131,19 @@ int main(int argc, char** argv) {
         "indirect {:.1f} ms\n",
         g % 2 == 0 ? "point" : "spot", g, sum / expected, 100 * rmse,
         100 * std::sqrt(noise / n) / (expected / n), cloud.count(), took.count());
+  }
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    double least = 1e30;
+    for (int repeat = 0; repeat < 30; ++repeat) {
+      std::vector<Rgbx> light(op.slots(), Rgbx{1, 1, 1, 0});
+      const auto start = std::chrono::steady_clock::now();
+      bounces.apply(light);
+      multiply(op.gather, light, indirect);
+      least = std::min(
+          least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    fmt::print("{} thread(s): light to light {:.2f} ms, the least of 30\n", threads, least);
   }
   fmt::print("\n{}: {} receivers, {} slots, {:.1f} MB, {:.0f} multiplications per receiver, {} sweeps\n",
              argv[1], op.gather.rows, op.slots(), static_cast<double>(op.bytes()) / 1e6,

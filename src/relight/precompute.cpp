@@ -121,21 +121,10 @@ void make_bounces(const View& view, const TransferParams& params, const Operator
   constexpr std::size_t kRowBlock = 256;
   std::vector<std::vector<SparseEntry>> rows(slots);
   for_blocks((slots + kRowBlock - 1) / kRowBlock, "bounce rows", work.progress, [&](std::size_t block) {
-    if (!work.ranks.mine(block)) return;
     auto made = make_rows(maker, kRowBlock * block, std::min(kRowBlock, slots - kRowBlock * block),
                           work.progress, slot_row);
     std::move(made.begin(), made.end(), rows.begin() + static_cast<std::ptrdiff_t>(kRowBlock * block));
   });
-  const auto in_block = [&](std::size_t block) {
-    return std::span(rows).subspan(kRowBlock * block, std::min(kRowBlock, slots - kRowBlock * block));
-  };
-  work.ranks.share((slots + kRowBlock - 1) / kRowBlock,
-                   [&](std::size_t block, std::string& bytes) {
-                     for (const auto& row : in_block(block)) put_vector(bytes, row);
-                   },
-                   [&](std::size_t block, std::string_view& bytes) {
-                     for (auto& row : in_block(block)) take_vector(bytes, row);
-                   });
   // The same rows twice: for direct light, whose edges are sharp, and for what was reflected and is even.
   const auto fit = [&](std::span<const std::vector<Rgbx>> lit, int coefficients, ClusterRows& out) {
     const TrainingLight light(transformed_luminance(lit));
@@ -177,7 +166,6 @@ void make_gather(const View& view, const RelightReceivers& receivers, const Tran
   for_blocks(gather.clusters(), "gather rows", work.progress, [&](std::size_t c) {
     if (work.state != nullptr)
       if (std::string_view bytes = work.state->find(c); !bytes.empty()) return gather.unpack(c, bytes);
-    if (!work.ranks.mine(c)) return;
     gather.set_cluster(
         c, make_rows(maker, cluster * c, std::min(cluster, count - cluster * c), work.progress, row));
     if (work.state == nullptr) return;
@@ -185,9 +173,6 @@ void make_gather(const View& view, const RelightReceivers& receivers, const Tran
     gather.pack(c, bytes);
     work.state->put(c, bytes);
   });
-  work.ranks.share(
-      gather.clusters(), [&](std::size_t c, std::string& bytes) { gather.pack(c, bytes); },
-      [&](std::size_t c, std::string_view& bytes) { gather.unpack(c, bytes); });
   auto made = gather.finish();
   op.gather = made.rows;
   op.owners.push_back(made.owner);

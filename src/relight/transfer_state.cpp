@@ -23,21 +23,16 @@ std::string head(const std::string& key) {
   return bytes;
 }
 
-std::filesystem::path of_rank(std::filesystem::path path, int rank) {
-  return rank == 0 ? path : path += "." + std::to_string(rank);
-}
-
 }  // namespace
 
 TransferState::TransferState(const std::filesystem::path& path, const std::string& key, bool resume)
-    : path_(path), key_(key) {
-  if (!resume) return;
+    : path_(path) {
+  const std::string begin = head(key);
   std::error_code ec;
-  for (int rank = 0; std::filesystem::exists(of_rank(path, rank), ec); ++rank) {
-    const std::string file = read_file(of_rank(path, rank)), begin = head(key);
+  if (resume && std::filesystem::exists(path, ec)) {
+    const std::string file = read_file(path);
     if (!file.starts_with(begin))
-      throw Error(of_rank(path, rank).string(), "belongs to an operator made otherwise",
-                  "the same options, or no --resume");
+      throw Error(path.string(), "belongs to an operator made otherwise", "the same options, or no --resume");
     std::string_view left = std::string_view(file).substr(begin.size());
     // What an interruption cut off is made again.
     while (left.size() >= sizeof(RecordHead)) {
@@ -48,14 +43,9 @@ TransferState::TransferState(const std::filesystem::path& path, const std::strin
       left.remove_prefix(record.bytes);
     }
   }
-}
-
-void TransferState::open(int rank) {
-  own_ = of_rank(path_, rank);
-  file_.reset(std::fopen(own_.c_str(), "wb"));
-  const std::string begin = head(key_);
+  file_.reset(std::fopen(path.c_str(), "wb"));
   if (!file_ || std::fwrite(begin.data(), begin.size(), 1, file_.get()) != 1)
-    throw Error(own_.string(), "cannot be written");
+    throw Error(path.string(), "cannot be written");
   for (const auto& [cluster, bytes] : records_) put(cluster, bytes);
 }
 
@@ -69,13 +59,13 @@ void TransferState::put(std::size_t cluster, std::string_view bytes) {
   const RecordHead record{cluster, bytes.size(), XXH3_64bits(bytes.data(), bytes.size())};
   if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1 ||
       std::fwrite(bytes.data(), bytes.size(), 1, file_.get()) != 1 || std::fflush(file_.get()) != 0)
-    throw Error(own_.string(), "cannot be written");
+    throw Error(path_.string(), "cannot be written");
 }
 
 void TransferState::remove() {
   file_.reset();
   std::error_code ignored;
-  std::filesystem::remove(own_, ignored);
+  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace sconce

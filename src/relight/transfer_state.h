@@ -14,14 +14,10 @@ namespace sconce {
 
 class TransferState {
  public:
-  /// @param path    PATH of the first rank, PATH.1, PATH.2, ... of the others
   /// @param key     names the operator; records of another one are not taken up
-  /// @param resume  take up what this or other ranks left; else it is replaced
+  /// @param resume  take up what is there; else it is replaced
   /// @throws Error when it belongs to another operator, or cannot be written
   TransferState(const std::filesystem::path& path, const std::string& key, bool resume);
-  /// Begins to write, when all ranks have read.
-  void open(int rank);
-
   /// A record that was taken up; empty where there is none.
   std::string_view find(std::size_t cluster) const;
   std::size_t size() const { return records_.size(); }
@@ -34,8 +30,7 @@ class TransferState {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_, own_;
-  std::string key_;
+  std::filesystem::path path_;
   std::map<std::size_t, std::string> records_;
   std::unique_ptr<std::FILE, Close> file_;
   std::mutex mutex_;

@@ -31,6 +31,10 @@ struct ClusterRows {
 /// @param out    rows
 void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out);
 
+/// The second half of it: rows out of the answers of their clusters' basis rows.
+/// @param basis  kRank per cluster
+void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb> out);
+
 /// Fits rows cluster by cluster to light as it is expected, on any number of threads.
 class ClusterRowsBuilder {
  public:

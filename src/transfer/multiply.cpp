@@ -63,7 +63,7 @@ void multiply_blocks(const WaveletRows& rows, std::size_t first, std::size_t end
 
 /// Rows of a cluster out of the products of its basis, kLanes at a time.
 /// @param sums  per basis row of all clusters
-void combine(const ClusterRows& rows, std::size_t first, std::size_t end, const Rgb* sums, Rgb* out) {
+void combine_groups(const ClusterRows& rows, std::size_t first, std::size_t end, const Rgb* sums, Rgb* out) {
   constexpr std::size_t kRank = ClusterRows::kRank, kRows = ClusterRows::kLanes;
   const hn::CappedTag<float, kRows> d;
   constexpr std::size_t kLanes = hn::MaxLanes(d), kParts = kRows / kLanes;
@@ -104,7 +104,7 @@ HWY_AFTER_NAMESPACE();
 namespace sconce {
 
 HWY_EXPORT(multiply_blocks);
-HWY_EXPORT(combine);
+HWY_EXPORT(combine_groups);
 
 void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
   constexpr std::size_t kGrain = 64;
@@ -114,15 +114,19 @@ void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rg
   });
 }
 
-void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
-  std::vector<Rgb> sums(ClusterRows::kRank * rows.clusters());
-  multiply(rows.basis, light, sums);
+void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb> out) {
   const std::size_t groups = rows.scales.size() / ClusterRows::kLanes;
   constexpr std::size_t kGrain = 512;
   parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
-    HWY_DYNAMIC_DISPATCH(combine)
-    (rows, part * kGrain, std::min(groups, (part + 1) * kGrain), sums.data(), out.data());
+    HWY_DYNAMIC_DISPATCH(combine_groups)
+    (rows, part * kGrain, std::min(groups, (part + 1) * kGrain), basis.data(), out.data());
   });
+}
+
+void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+  std::vector<Rgb> basis(ClusterRows::kRank * rows.clusters());
+  multiply(rows.basis, light, basis);
+  combine(rows, basis, out);
 }
 
 }  // namespace sconce

@@ -68,6 +68,10 @@ std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitanc
 /// `albedo`.
 void bounce_light(const Operator& op, std::span<Rgbx> exitance);
 
+/// Makes wavelet coefficients of b_d and adds light that was reflected, per node.
+/// @param nodes  changed
+void add_reflected(std::span<Rgbx> exitance, std::vector<Rgbx>& nodes);
+
 /// Sweeps after which all light still to come is less than `tolerance` of what started, were it even. A
 /// property of the operator alone, so that its answer is linear.
 uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, double tolerance = 1e-3);

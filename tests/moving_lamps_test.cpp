@@ -3,6 +3,7 @@
 // methods.md).
 #include <gtest/gtest.h>
 
+#include "core/hash.h"
 #include "core/test_data.h"
 #include "image/io.h"
 #include "package/glb.h"
@@ -67,6 +68,40 @@ TEST_F(Relight, NewLampsAddAndScale) {
   expect_done(run(
       picture("relight", "both.exr", {"--others", "off", "--light", lamp + "100", "--light", lamp + "300"})));
   EXPECT_NEAR(mean("both.exr") / mean("100.exr"), 4, 1e-3);
+}
+
+// A lamp that is moved to where it stands is the lamp by transfer; elsewhere its light is elsewhere.
+TEST_F(Relight, ALampLeavesItsLayer) {
+  make_room();
+  expect_done(run(picture("relight", "group.exr", {"--light", "group,name=left"})));
+  expect_done(run(picture("relight", "still.exr", {"--move", "left=-0.6,1.98,0"})));
+  expect_done(run(picture("relight", "moved.exr", {"--move", "left=0,1.2,0"})));
+  EXPECT_NEAR(mean("still.exr") / mean("group.exr"), 1, 0.005);
+  EXPECT_EQ(
+      run({"diff", file("moved.exr"), file("group.exr"), "--metric", "rmse", "--fail-above", "20%"}).code, 3);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "nobody=0,1,0"})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1"})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1,0", "--device", "gl"})).code, 2);
+  const test::Outcome inside =
+      run(picture("relight", "x.exr", {"--light", "point,position=0.4,0.3,-0.3,lumens=10"}));
+  EXPECT_NE(inside.err.find("inside something"), std::string::npos) << inside.err;
+}
+
+// A cut-off state goes on to the same bytes; one of other options is refused.
+TEST_F(Relight, AnInterruptedTransferGoesOn) {
+  make_room();
+  const fs::path op = fs::path(package) / "operators" / "lightmap.bin", state = fs::path(op) += ".state";
+  const std::string whole = read_file(op);
+  EXPECT_FALSE(fs::exists(state));
+  fs::remove(op);
+  fs::create_directory(op);  // so that the end cannot be written: the rows stay in the state
+  EXPECT_EQ(run({"transfer", package, "--gather", "1024"}).code, 1);
+  ASSERT_TRUE(fs::exists(state));
+  fs::remove(op);
+  fs::resize_file(state, fs::file_size(state) - 100);
+  EXPECT_EQ(run({"transfer", package, "--gather", "1024", "--resume", "--rays", "64"}).code, 1);
+  expect_done(run({"transfer", package, "--gather", "1024", "--resume"}));
+  EXPECT_EQ(hash_hex(read_file(op).substr(512)), hash_hex(whole.substr(512))) << "all but the head's options";
 }
 
 TEST_F(Relight, MistakesAreNamed) {
