@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far indirect light by transfer is from the path tracer's, for lamps at random places: relative error
-// over receivers, of indirect light alone. Usage: transfer_error PACKAGE [LAMPS RECEIVERS PATHS SEED]; the
-// package has an operator for its lightmap.
+// over receivers, of indirect light alone. Usage: transfer_error PACKAGE OPERATOR [LAMPS RECEIVERS PATHS
+// SEED]. The table: bench/results/transfer.md.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -104,6 +104,28 @@ TEST_F(Relight, AnInterruptedTransferGoesOn) {
   EXPECT_EQ(hash_hex(read_file(op).substr(512)), hash_hex(whole.substr(512))) << "all but the head's options";
 }
 
+// The example host through the C interface. A bulb in a closed empty box: all its light lands, and a share
+// rho / (1 - rho) of it comes back, so that 24 lm on 24 m2 of half-white walls are 1 lux on the mean.
+TEST_F(Relight, AnyHostByTheCInterface) {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "grey", Rgb(0.5f)), Vec3(-1), Vec3(1), true);
+  Light bulb;
+  bulb.intensity = Rgb(1);
+  scene.lights.push_back(bulb);
+  write_file(folder / "room.glb", write_glb(scene, "test"));
+  expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "8"}));
+  expect_done(run({"transfer", package, "--gather", "1024"}));
+  const std::string op = package + "/operators/lightmap.bin";
+  const test::Outcome outcome = test::run_program(INDIRECT, {op, "0.3", "0.2", "-0.4", "1.9098593"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  double lux = 0;
+  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "%*d points, %*d receivers, %lf", &lux), 1) << outcome.out;
+  EXPECT_NEAR(lux, 1, 0.03);
+  const test::Outcome none = test::run_program(INDIRECT, {op + "x", "0", "0", "0", "1"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("lightmap.binx"), std::string::npos) << none.err;
+}
+
 TEST_F(Relight, MistakesAreNamed) {
   make_room();
   EXPECT_EQ(run(picture("relight", "x.exr", {})).code, 2);

@@ -43,8 +43,8 @@ struct Operator {
   std::span<const OperatorPoint> receivers;  ///< per row of `gather`
   std::span<const uint32_t> places;          ///< per row: page * height * width + y * width + x
   ClusterRows gather;                        ///< F: receivers x slots
-  /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots, `bounce` from
-  /// nodes to nodes for light that was reflected and is even.
+  /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots (of one: ADR
+  /// 17), `bounce` from nodes to nodes for light that was reflected and is even.
   ClusterRows first, bounce;
   std::span<const Rgbx> albedo;  ///< per node
   std::vector<std::shared_ptr<const void>> owners;
