@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far indirect light by transfer is from the path tracer's, for lamps at random places: relative error
-// over receivers, of indirect light alone. Usage: transfer_error PACKAGE [LAMPS RECEIVERS PATHS SEED]; the
-// package has an operator for its lightmap.
+// over receivers, of indirect light alone. Usage: transfer_error PACKAGE OPERATOR [LAMPS RECEIVERS PATHS
+// SEED]. The table: bench/results/transfer.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "relight/moved_lamps.h"
 #include "relight/receivers.h"
 #include "solve/solver.h"
+#include "transfer/folded_bounces.h"
 
 using namespace sconce;
 
@@ -21,10 +22,15 @@ namespace {
 /// other one a spot.
 std::vector<Light> random_lamps(const View& view, const Operator& op, int count, uint32_t seed) {
   std::vector<Light> lamps;
+  // By places, whatever the operator's own order is.
+  std::vector<std::pair<uint32_t, uint32_t>> by_place;
+  for (uint32_t i = 0; i < op.places.size(); ++i) by_place.emplace_back(op.places[i], i);
+  std::sort(by_place.begin(), by_place.end());
   for (uint32_t i = 0; static_cast<int>(lamps.size()) < count && i < 10000; ++i) {
     Sampler sampler(seed, 0x6c616d70u, i);
     const Vec2 pick = sampler.next(), along = sampler.next(), aim = sampler.next(), shape = sampler.next();
-    const auto& r = op.receivers[static_cast<std::size_t>(pick.x * static_cast<float>(op.receivers.size()))];
+    const auto& r =
+        op.receivers[by_place[static_cast<std::size_t>(pick.x * static_cast<float>(by_place.size()))].second];
     const Vec3 from(r.position[0], r.position[1], r.position[2]), n = unpack_normal(r.geometric);
     Vec3 direction = Frame(n).to_world(square_to_cosine(along));
     float distance = view.tracer().closest({offset_origin(from, n, direction), direction}).distance;
@@ -93,13 +99,16 @@ int main(int argc, char** argv) {
                   std::span(truth).subspan(k * groups, groups));
   });
 
+  const FoldedBounces bounces(op);
+  std::vector<Rgb> indirect(op.gather.rows);
   Errors by_kind[2];
   for (std::size_t g = 0; g < groups; ++g) {
     const MovedLamps moved(view.scene(), view.world(), view.tracer(), {lamps[g]}, {});
     const auto start = std::chrono::steady_clock::now();
     std::vector<Rgbx> light = light_cloud(op, moved);
     const auto lit = std::chrono::steady_clock::now();
-    const std::vector<Rgb> indirect = indirect_light(op, light);
+    bounces.apply(light);
+    multiply(op.gather, light, indirect);
     const std::chrono::duration<double, std::milli> cloud = lit - start,
                                                     took = std::chrono::steady_clock::now() - lit;
     double sum = 0, expected = 0, squares = 0, noise = 0;
@@ -122,6 +131,19 @@ int main(int argc, char** argv) {
         "indirect {:.1f} ms\n",
         g % 2 == 0 ? "point" : "spot", g, sum / expected, 100 * rmse,
         100 * std::sqrt(noise / n) / (expected / n), cloud.count(), took.count());
+  }
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    double least = 1e30;
+    for (int repeat = 0; repeat < 30; ++repeat) {
+      std::vector<Rgbx> light(op.slots(), Rgbx{1, 1, 1, 0});
+      const auto start = std::chrono::steady_clock::now();
+      bounces.apply(light);
+      multiply(op.gather, light, indirect);
+      least = std::min(
+          least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    fmt::print("{} thread(s): light to light {:.2f} ms, the least of 30\n", threads, least);
   }
   fmt::print("\n{}: {} receivers, {} slots, {:.1f} MB, {:.0f} multiplications per receiver, {} sweeps\n",
              argv[1], op.gather.rows, op.slots(), static_cast<double>(op.bytes()) / 1e6,

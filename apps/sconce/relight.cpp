@@ -31,13 +31,20 @@ Light light_option(const std::string& text) {
   }
 }
 
-/// What `--light` and `--lights` ask for.
+struct Move {
+  std::string name;
+  Vec3 to;
+};
+
+/// What `--light`, `--lights` and `--move` ask for.
 struct Wanted {
   std::vector<Light> lights;
   std::vector<std::string> groups;
+  std::vector<Move> moves;
 };
 
-Wanted find_wanted(const std::vector<std::string>& texts, const std::string& file, const Progress& progress) {
+Wanted find_wanted(const std::vector<std::string>& texts, const std::string& file,
+                   const std::vector<std::string>& moves, const Progress& progress) {
   constexpr std::string_view kGroup = "group,name=";
   Wanted wanted;
   for (const std::string& text : texts) {
@@ -48,25 +55,37 @@ Wanted find_wanted(const std::vector<std::string>& texts, const std::string& fil
   }
   if (!file.empty())
     for (Light& light : read_lights(file, progress)) wanted.lights.push_back(std::move(light));
-  if (wanted.lights.empty() && wanted.groups.empty())
-    throw UsageError({}, "no lamp to move: --light or --lights", "--light spot,position=X,Y,Z,lumens=N");
+  for (const std::string& text : moves) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("option '--move'", "'" + text + "' is not understood", "LAMP=X,Y,Z");
+    wanted.moves.push_back({text.substr(0, equals), parse_point(text.substr(equals + 1), "--move")});
+  }
+  if (wanted.lights.empty() && wanted.groups.empty() && wanted.moves.empty())
+    throw UsageError({}, "no lamp to move: --light, --lights or --move",
+                     "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
   return wanted;
 }
 
-/// Groups that come by transfer leave the lightmap: their weight goes from the mix to their lamps.
-std::vector<MovedGroup> take_groups(const Manifest& m, const std::vector<std::string>& names,
-                                    MixSpec& lightmap) {
+/// The group of that name. @throws UsageError
+Id<LightGroup> find_group(const Manifest& m, const std::string& name) {
   std::vector<std::string> known;
   for (const GroupInfo& group : m.groups) known.push_back(group.name);
+  const auto it = std::find(known.begin(), known.end(), name);
+  if (it == known.end())
+    throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
+                     join(known, ", "));
+  return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
+}
+
+/// Groups that come by transfer leave the lightmap: their weight goes from the mix to their lamps.
+std::vector<MovedGroup> take_groups(const std::vector<Id<LightGroup>>& groups, MixSpec& lightmap) {
   std::vector<MovedGroup> moved;
-  for (const std::string& name : names) {
-    const auto it = std::find(known.begin(), known.end(), name);
-    if (it == known.end())
-      throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
-                       join(known, ", "));
-    const auto g = static_cast<std::size_t>(it - known.begin());
-    moved.push_back({Id<LightGroup>(g), lightmap.weights[g]});
-    lightmap.weights[g] = Rgb(0);
+  for (const Id<LightGroup> group : groups) {
+    if (std::any_of(moved.begin(), moved.end(), [&](const MovedGroup& m) { return m.group == group; }))
+      continue;
+    moved.push_back({group, lightmap.weights[group.value]});
+    lightmap.weights[group.value] = Rgb(0);
   }
   return moved;
 }
@@ -102,7 +121,7 @@ int run_relight(int argc, const char* const* argv) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   std::string input, output, file;
-  std::vector<std::string> texts;
+  std::vector<std::string> texts, moves;
   bool pixels = false;
   MixOptions settings;
   PictureOptions picture;
@@ -118,6 +137,9 @@ int run_relight(int argc, const char* const* argv) {
       "spot,position=1,2,0,target=0,0,0,lumens=800; or group,name=G: the group by transfer instead of "
       "by its layer; may be given several times");
   options.option("--lights", &file, "TOML file with [[light]] tables");
+  options.option("--move", &moves,
+                 "LAMP=X,Y,Z: a lamp or a whole group of the package leaves its layer and shines from there; "
+                 "may be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option("-o,--output", &output,
@@ -128,6 +150,8 @@ int run_relight(int argc, const char* const* argv) {
   const Preset preset = settings.preset();
   picture.apply(preset);
   picture.check();
+  if (picture.device == "gl" || picture.device == "software" || picture.tier != "auto")
+    throw UsageError("option '--device'", "relight draws on the CPU", "auto, cpu");
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");
   if (output.empty()) output = default_output(input, ".relit.png");
@@ -142,30 +166,34 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    const Wanted wanted = find_wanted(texts, file, progress);
+    const Wanted wanted = find_wanted(texts, file, moves, progress);
     const Package package = settings.open(input);
     const Operator op = find_operator(package, pixels ? picture.camera : "");
     const View view(package);
     relit.groups = package.manifest().groups;
     relit.mix = settings.make(preset, relit.groups, progress);
     MixSpec lightmap = relit.mix;
-    const std::vector<MovedGroup> groups = take_groups(package.manifest(), wanted.groups, lightmap);
+    std::vector<Id<LightGroup>> left;
+    for (const std::string& name : wanted.groups) left.push_back(find_group(package.manifest(), name));
+    std::vector<LampMove> shifts;
+    const Lamps own(view.scene(), view.world());
+    for (const Move& move : wanted.moves) {
+      shifts.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
+      left.insert(left.end(), shifts.back().groups.begin(), shifts.back().groups.end());
+    }
+    const std::vector<MovedGroup> groups = take_groups(left, lightmap);
     find_view(op, view, picture, progress, relit);
     progress.check();
-    const MovedLamps lamps(view.scene(), view.world(), view.tracer(), wanted.lights, groups);
+    const MovedLamps lamps(view.scene(), view.world(), view.tracer(), wanted.lights, groups, shifts);
+    for (const std::string& name : lamps.buried())
+      progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
     const Relighter relighter(package, view, op, lamps);
     relit.seconds = relighter.seconds();
     std::vector<Image> pages = mix_pages(package, lightmap);
-    const bool texels = op.kind == OperatorReceivers::texels;
-    if (texels) relighter.add_to(pages);
-    if (exposed && texels) {
-      std::vector<Image> whole = pages;
-      relighter.add_direct_to(whole);
-      relit.metering = meter(package, view.scene(), relit.mix, whole);
-    }
+    if (op.kind == OperatorReceivers::texels) relighter.add_to(pages);
     relit.linear =
         view.render(relit.camera, relit.mix, pages, relit.params, progress, nullptr, relighter.added());
-    if (exposed && !texels) relit.metering = meter_picture(relit.linear);
+    if (exposed) relit.metering = meter_picture(relit.linear);
     const Exposure exposure =
         exposed ? choice.resolve(relit.metering) : unit_exposure(relit.metering.maximum);
     linear ? write_linear(output, relit.linear, exposure)

@@ -25,12 +25,21 @@ std::string options_text(const Options& options) {
   return trim(text);
 }
 
+/// All that rows of F depend on beside the scene.
+std::string key_of(const TransferParams& p, const RelightReceivers& receivers) {
+  std::string key = fmt::format("{} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
+                                p.bounce_coefficients, p.points, p.lights, p.seed, receivers.source.count);
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r) key += fmt::format(" {}", receivers.camera.frame[c][r]);
+  return key + fmt::format(" {} {} {}", receivers.camera.yfov, receivers.width, receivers.height);
+}
+
 }  // namespace
 
 int run_transfer(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
   std::string input;
-  bool lightmap = false;
+  bool lightmap = false, resume = false;
   PictureOptions picture;
   TransferParams params;
   int gather = static_cast<int>(params.gather), seed = 1;
@@ -50,6 +59,7 @@ int run_transfer(int argc, const char* const* argv) {
   options.option("--points", &params.points, "where direct light is asked for, per sample of the cloud");
   options.option("--lights", &params.lights, "lamps at random places that rows are fitted to");
   options.option("--seed", &seed, "of the random numbers");
+  options.flag("--resume", &resume, "go on with what an interrupted transfer left");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (lightmap && !picture.camera.empty()) throw UsageError({}, "--lightmap and --camera exclude each other");
   if (!picture.size.empty() && picture.camera.empty()) throw UsageError({}, "--size needs --camera");
@@ -73,12 +83,17 @@ int run_transfer(int argc, const char* const* argv) {
       const PictureParams size = picture.params(camera);
       receivers = pixel_receivers(view, camera, size.width, size.height);
     }
-    op = make_operator(view, receivers, params, operator_scene(package), progress);
-    op.options = options_text(options);
     path = operator_path(package.path(), picture.camera);
     std::error_code ec;
     fs::create_directory(path.parent_path(), ec);
+    const std::string scene = operator_scene(package);
+    TransferState state(fs::path(path) += ".state",
+                        fmt::format("{} {} {} {}", SCONCE_VERSION, isa(), scene, key_of(params, receivers)),
+                        resume);
+    op = make_operator(view, receivers, params, scene, {progress, &state});
+    op.options = options_text(options);
     write_operator(path, op);
+    state.remove();
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto bytes = fs::file_size(path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -20,6 +21,21 @@ template <class T>
 void take_span(std::string_view& bytes, std::span<T> to) {
   std::memcpy(to.data(), bytes.data(), to.size_bytes());
   bytes.remove_prefix(to.size_bytes());
+}
+
+/// The same with the number of values before them.
+template <class T>
+void put_vector(std::string& bytes, const std::vector<T>& values) {
+  const uint64_t size = values.size();
+  put_span(bytes, std::span(&size, 1));
+  put_span(bytes, std::span<const T>(values));
+}
+template <class T>
+void take_vector(std::string_view& bytes, std::vector<T>& values) {
+  uint64_t size = 0;
+  take_span(bytes, std::span(&size, 1));
+  values.resize(size);
+  take_span(bytes, std::span(values));
 }
 
 /// Processes that work on one job, each with all of its input. Passed in, never global; the default is one

@@ -1,33 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "relight/moved_lamps.h"
 
+#include <algorithm>
+
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "core/text.h"
 
 namespace sconce {
 
 namespace {
 
-constexpr uint32_t kCloudStream = 0x636c6f64u;
+constexpr uint32_t kCloudStream = 0x636c6f64u, kMetStream = 0x6d6574u, kBuriedStream = 0x62757269u;
 
-Scene with(const Scene& scene, const std::vector<Light>& lights) {
+std::optional<Vec3> place_of(const Lamp& lamp) {
+  if (const auto* punctual = std::get_if<PunctualLamp>(&lamp.shape)) return punctual->position;
+  if (const auto* luminaire = std::get_if<LuminaireLamp>(&lamp.shape)) return luminaire->position;
+  if (const auto* mesh = std::get_if<MeshLamp>(&lamp.shape)) return mesh->center;
+  return std::nullopt;
+}
+
+/// Lamps are the scene's lights, in order, and then the emissive meshes.
+Scene with(const Scene& scene, const World& world, const std::vector<Light>& lights,
+           std::span<const LampMove> moves) {
   Scene out = scene;
+  const Lamps lamps(scene, world);
+  for (const LampMove& move : moves)
+    for (const std::size_t i : move.lamps) {
+      const auto* mesh = std::get_if<MeshLamp>(&lamps.all()[i].shape);
+      Mat4& frame = mesh != nullptr ? out.instances[world.instances[mesh->first_triangle].value].transform
+                                    : out.lights[i].frame;
+      frame[3] += glm::vec4(move.by, 0);
+    }
   out.lights.insert(out.lights.end(), lights.begin(), lights.end());
   return out;
 }
 
+bool moves_meshes(const Scene& scene, std::span<const LampMove> moves) {
+  return std::any_of(moves.begin(), moves.end(), [&](const LampMove& move) {
+    return std::any_of(move.lamps.begin(), move.lamps.end(),
+                       [&](std::size_t i) { return i >= scene.lights.size(); });
+  });
+}
+
 }  // namespace
 
+LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const Vec3& to,
+                   const std::string& option) {
+  LampMove move;
+  std::vector<std::string> known;
+  Vec3 sum(0);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const Lamp& lamp = lamps.all()[i];
+    const std::string group = lamp.group.valid() ? scene[lamp.group].name : std::string();
+    for (const std::string& word : {lamp.name, group})
+      if (!word.empty() && std::find(known.begin(), known.end(), word) == known.end()) known.push_back(word);
+    if (name != lamp.name && name != group) continue;
+    const auto place = place_of(lamp);
+    if (!place) throw UsageError(option, "'" + name + "' shines from everywhere", "a lamp that has a place");
+    sum += *place;
+    move.lamps.push_back(i);
+    if (lamp.group.valid() &&
+        std::find(move.groups.begin(), move.groups.end(), lamp.group) == move.groups.end())
+      move.groups.push_back(lamp.group);
+  }
+  if (move.lamps.empty())
+    throw UsageError(option, "no lamp or group '" + name + "'" + did_you_mean(name, known),
+                     join(known, ", "));
+  move.by = to - sum / static_cast<float>(move.lamps.size());
+  return move;
+}
+
 MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tracer,
-                       const std::vector<Light>& lights, std::span<const MovedGroup> groups)
-    : tracer_(tracer), scene_(with(scene, lights)), lamps_(scene_, world) {
-  // Lamps are the scene's lights, in order, and then the emissive meshes.
+                       const std::vector<Light>& lights, std::span<const MovedGroup> groups,
+                       std::span<const LampMove> moves)
+    : world_(world),
+      tracer_(tracer),
+      scene_(with(scene, world, lights, moves)),
+      moved_world_(moves_meshes(scene, moves) ? make_world(scene_) : World()),
+      lamps_(scene_, moved_world_.size() > 0 ? moved_world_ : world_) {
+  const std::size_t more = lights.size();
+  // Lamps of the scene alone, by their number there.
+  const auto moved = [&](std::size_t i) {
+    const std::size_t before = i < scene.lights.size() ? i : i - more;
+    return std::any_of(moves.begin(), moves.end(), [&](const LampMove& move) {
+      return std::find(move.lamps.begin(), move.lamps.end(), before) != move.lamps.end();
+    });
+  };
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
     const bool added = i >= scene.lights.size() && i < scene_.lights.size();
-    if (added) chosen_.push_back({i, Rgb(1)});
-    for (const MovedGroup& moved : groups)
-      if (!added && lamps_.all()[i].group == moved.group && !moved.weight.is_black())
-        chosen_.push_back({i, moved.weight});
+    const LampShape& shape = lamps_.all()[i].shape;
+    const bool met =
+        std::holds_alternative<SkyLamp>(shape) || (std::holds_alternative<MeshLamp>(shape) && !moved(i));
+    if (added) chosen_.push_back({i, Rgb(1), met});
+    for (const MovedGroup& group : groups)
+      if (!added && lamps_.all()[i].group == group.group && !group.weight.is_black())
+        chosen_.push_back({i, group.weight, met});
+  }
+  for (const Chosen& chosen : chosen_) {
+    if (!chosen.met) continue;
+    met_.resize(lamps_.size());
+    met_[chosen.lamp] = chosen.weight;
   }
 }
 
@@ -44,9 +118,54 @@ Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t in
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) continue;
     const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
     if (end > 0 && tracer_.occluded({start, light.direction, end})) continue;
-    sum += chosen.weight * light.radiance * (light.delta ? cosine : cosine / light.pdf);
+    const float density = light.delta ? 1 : light.pdf + (chosen.met ? cosine * kInvPi : 0);
+    sum += chosen.weight * light.radiance * (cosine / density);
   }
+  if (!met_.empty()) sum += met(at, start, stream, index);
   return sum;
+}
+
+Rgb MovedLamps::met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index) const {
+  const Vec3 direction =
+      Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(index, 0, mix32(stream, kMetStream))));
+  const float cosine = glm::dot(direction, at.shading_normal);
+  if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return {};
+  const auto share = [&](float density) { return cosine / (density + cosine * kInvPi); };
+  const Hit hit = tracer_.closest({start, direction});
+  Rgb sum;
+  if (!hit) {
+    for (const uint32_t sky : lamps_.skies())
+      if (!met_[sky].is_black())
+        sum += met_[sky] * lamps_.sky_radiance(sky, direction) * share(lamps_.sky_pdf(sky, direction));
+    return sum;
+  }
+  const int lamp = lamps_.lamp_of(hit.triangle);
+  if (lamp < 0 || met_[static_cast<std::size_t>(lamp)].is_black()) return {};
+  const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
+  if (emission.is_black()) return {};
+  return met_[static_cast<std::size_t>(lamp)] * emission *
+         share(lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction));
+}
+
+std::vector<std::string> MovedLamps::buried() const {
+  constexpr uint32_t kRays = 128;
+  std::vector<std::string> names;
+  for (const Chosen& chosen : chosen_) {
+    const Lamp& lamp = lamps_.all()[chosen.lamp];
+    if (std::holds_alternative<MeshLamp>(lamp.shape)) continue;  // stands in its own body
+    const auto place = place_of(lamp);
+    if (!place) continue;
+    uint32_t backs = 0;
+    for (uint32_t r = 0; r < kRays; ++r) {
+      const Vec2 u = sobol_pair(r, 0, kBuriedStream);
+      const float z = 1 - 2 * u.x, radius = std::sqrt(std::max(0.0f, 1 - z * z));
+      const Hit hit = tracer_.closest(
+          {*place, Vec3(radius * std::cos(2 * kPi * u.y), radius * std::sin(2 * kPi * u.y), z)});
+      backs += hit && hit.back && !scene_[world_.materials[hit.triangle]].double_sided ? 1 : 0;
+    }
+    if (2 * backs > kRays) names.push_back(lamp.name);
+  }
+  return names;
 }
 
 std::vector<Rgbx> light_cloud(const Operator& op, const MovedLamps& lamps) {

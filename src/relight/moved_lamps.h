@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lamps that are not in any layer: new ones, and those of light groups that come by transfer.
+// Lamps that are not in any layer: new ones, those of light groups that come by transfer, moved or not.
 #pragma once
 
 #include "light/lamp.h"
@@ -14,26 +14,50 @@ struct MovedGroup {
   Rgb weight;
 };
 
+/// Lamps of the scene that go elsewhere together, turned as they were.
+struct LampMove {
+  std::vector<std::size_t> lamps;      ///< of Lamps::all()
+  std::vector<Id<LightGroup>> groups;  ///< theirs: they leave their layers
+  Vec3 by{0};                          ///< m
+};
+
+/// The lamp of that name, all lamps where several bear it, or all of a group; their middle goes to `to`.
+/// @param option  that asked for it
+/// @throws UsageError: no such lamp, or one without a place (sun, sky)
+LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const Vec3& to,
+                   const std::string& option);
+
 class MovedLamps {
  public:
-  /// The scene's groups and more lights. World and tracer must outlive it.
+  /// The scene's groups and more lights. Tracer and world must outlive it. A moved lamp that is a mesh shines
+  /// from its new place through its old body: geometry stays.
   MovedLamps(const Scene& scene, const World& world, const Tracer& tracer, const std::vector<Light>& lights,
-             std::span<const MovedGroup> groups);
+             std::span<const MovedGroup> groups, std::span<const LampMove> moves = {});
 
   std::size_t size() const { return chosen_.size(); }
-  /// Direct illuminance at a point, lux, by one shadow ray for each lamp. Lamps of some size, sun and sky
-  /// with a random point: a mean over `index`es of a stream is the soft shadow. Thread-safe.
+  /// Direct illuminance at a point, lux, by one shadow ray for each lamp and one ray for all lamps of some
+  /// size and skies, weighted by the balance heuristic (Veach 1997): a mean over `index`es of a stream is the
+  /// soft shadow. Thread-safe.
   Rgb illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const;
+
+  /// Names of lamps from which most rays end on backs of surfaces: they stand inside something.
+  std::vector<std::string> buried() const;
 
  private:
   struct Chosen {
     std::size_t lamp;
     Rgb weight;
+    bool met = false;  ///< rays can meet it
   };
+  Rgb met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index) const;
+
+  const World& world_;
   const Tracer& tracer_;
   Scene scene_;
+  World moved_world_;  ///< empty where no mesh moved
   Lamps lamps_;
   std::vector<Chosen> chosen_;
+  std::vector<Rgb> met_;  ///< per lamp: weight of those that rays can meet; empty where there are none
 };
 
 /// b_d of the operator's cloud: albedo x direct illuminance, mean over each slot's points, lm/m2.

@@ -3,22 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/parallel.h"
 #include "gather/row_rays.h"
-#include "relight/cloud_square.h"
+#include "relight/operator_start.h"
 #include "relight/training_lights.h"
-#include "transfer/flatten.h"
 
 namespace sconce {
 
 namespace {
 
-constexpr uint32_t kNodeCluster = 128;
-constexpr uint32_t kGatherStream = 0x66696e61u, kBounceStream = 0x626f756eu, kLitStream = 0x6c697470u;
+constexpr uint32_t kSlotCluster = 2048;  // slots that share a basis of the bounces
+constexpr uint32_t kGatherStream = 0x66696e61u, kBounceStream = 0x626f756eu;
 
 void check(const TransferParams& p) {
   if (!is_power_of_four(p.gather) || p.gather < 256 || p.gather > 65536)
@@ -75,52 +71,8 @@ class RowMaker {
   std::vector<uint32_t> met_;
 };
 
-/// Columns become slots >> shift.
-std::vector<SparseEntry> coarsened(std::span<const SparseEntry> row, int shift) {
-  std::vector<SparseEntry> out;
-  for (const SparseEntry& e : row) {
-    if (!out.empty() && out.back().index == e.index >> shift)
-      out.back().value += e.value;
-    else
-      out.push_back({e.index >> shift, e.value});
-  }
-  return out;
-}
-
-/// Calls use(block, rows) for blocks of `block` rows that make(i, maker, row) makes.
-template <class Make, class Use>
-void for_blocks(std::size_t rows, std::size_t block, const RowMaker& prototype, const char* stage,
-                const Progress& progress, Make&& make, Use&& use) {
-  const std::size_t blocks = (rows + block - 1) / block;
-  std::atomic<uint64_t> done = 0;
-  progress.at(stage, 0, blocks);
-  parallel_for(blocks, 1, [&](std::size_t b) {
-    RowMaker maker = prototype;
-    std::vector<std::vector<SparseEntry>> made(std::min(block, rows - block * b));
-    for (std::size_t r = 0; r < made.size(); ++r) {
-      if (r % 64 == 0) progress.check();
-      make(block * b + r, maker, made[r]);
-    }
-    use(b, made);
-    progress.at(stage, ++done, blocks);
-  });
-}
-
-struct OwnedArrays {
-  std::vector<OperatorPoint> lit, receivers;
-  std::vector<uint32_t> places;
-  std::vector<Rgbx> albedo;
-};
-
-OperatorPoint pack(const SurfacePoint& p, const Rgb& albedo) {
-  return {{p.position.x, p.position.y, p.position.z},
-          pack_normal(p.shading_normal),
-          pack_normal(p.geometric_normal),
-          pack_albedo(albedo)};
-}
-
 /// Transforms of the lights' luminance.
-std::vector<std::vector<float>> transformed_luminance(const std::vector<std::vector<Rgbx>>& lights) {
+std::vector<std::vector<float>> transformed_luminance(std::span<const std::vector<Rgbx>> lights) {
   std::vector<std::vector<float>> out(lights.size());
   parallel_for(lights.size(), 1, [&](std::size_t t) {
     for (const Rgbx& l : lights[t]) out[t].push_back(luminance(Rgb(l[0], l[1], l[2])));
@@ -129,122 +81,115 @@ std::vector<std::vector<float>> transformed_luminance(const std::vector<std::vec
   return out;
 }
 
-/// Points of a slot, spread over its sample's cells by area.
-void light_points(const GatherCloud& cloud, const CloudSquare& square, uint32_t slot, uint32_t points,
-                  uint32_t seed, OperatorPoint* out) {
-  const uint32_t sample = square.samples[slot];
-  const std::span<const uint32_t> cells = cloud.owned(sample);
-  const uint32_t stream = mix32(mix32(seed, kLitStream), sample);
-  std::vector<Footprint> footprints;
-  double area = 0;
-  for (const uint32_t cell : cells) {
-    footprints.push_back(cloud.cell_footprint(cell));
-    area += static_cast<double>(footprints.back().area);
+/// Rows of a cluster, one after the other.
+template <class Make>
+std::vector<std::vector<SparseEntry>> make_rows(const RowMaker& prototype, std::size_t first,
+                                                std::size_t count, const Progress& progress, Make&& make) {
+  RowMaker maker = prototype;
+  std::vector<std::vector<SparseEntry>> rows(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    if (r % 64 == 0) progress.check();
+    make(first + r, maker, rows[r]);
   }
-  for (uint32_t p = 0; p < points; ++p) {
-    Vec2 u = sobol_pair(square.copies[slot] * points + p, 0, stream);
-    double left = static_cast<double>(u.x) * area;
-    std::size_t k = 0;
-    while (k + 1 < footprints.size() && left >= static_cast<double>(footprints[k].area))
-      left -= static_cast<double>(footprints[k++].area);
-    u.x = std::clamp(static_cast<float>(left / static_cast<double>(footprints[k].area)), 0.0f, 0.9999999f);
-    out[p] = pack(cloud.point(sample, footprints[k], u), cloud.cell_albedo(cells[k]));
+  return rows;
+}
+
+/// The cloud's own light: `first` and `bounce`, their albedos and sweeps.
+/// @param lights  per lamp: b_d per slot
+void make_bounces(const View& view, const TransferParams& params, const OperatorStart& start,
+                  std::span<const std::vector<Rgbx>> lights, const TransferWork& work, Operator& op) {
+  const auto slots = static_cast<uint32_t>(params.gather);
+  const auto albedo = std::make_shared<std::vector<Rgbx>>(slots);
+  for (uint32_t slot = 0; slot < slots; ++slot) {
+    const Rgb& a = start.cloud->albedo(start.square.samples[slot]);
+    (*albedo)[slot] = {a.r, a.g, a.b, 0};
   }
+  op.albedo = *albedo;
+  op.owners.push_back(albedo);
+
+  const RowMaker maker(view, *start.cloud, start.square);
+  const auto slot_row = [&](std::size_t slot, RowMaker& rows, std::vector<SparseEntry>& row) {
+    constexpr uint32_t kRays = 32;
+    const uint32_t stream = mix32(mix32(params.seed, kBounceStream), static_cast<uint32_t>(slot)),
+                   sample = start.square.samples[slot];
+    const Footprint footprint = start.cloud->footprint(sample);
+    rows.start();
+    for (uint32_t r = 0; r < kRays; ++r)
+      rows.shoot(start.cloud->point(sample, footprint, sobol_pair(r, 0, stream)), r, stream);
+    rows.finish(kRays, row);
+  };
+  constexpr std::size_t kRowBlock = 256;
+  std::vector<std::vector<SparseEntry>> rows(slots);
+  for_blocks((slots + kRowBlock - 1) / kRowBlock, "bounce rows", work.progress, [&](std::size_t block) {
+    auto made = make_rows(maker, kRowBlock * block, std::min(kRowBlock, slots - kRowBlock * block),
+                          work.progress, slot_row);
+    std::move(made.begin(), made.end(), rows.begin() + static_cast<std::ptrdiff_t>(kRowBlock * block));
+  });
+  // The same rows twice: for direct light, whose edges are sharp, and for what was reflected and is even.
+  const auto fit = [&](std::span<const std::vector<Rgbx>> lit, int coefficients, ClusterRows& out) {
+    const TrainingLight light(transformed_luminance(lit));
+    ClusterRowsBuilder builder(slots, light, {kSlotCluster, static_cast<std::size_t>(coefficients)});
+    for_blocks(builder.clusters(), "bounces", work.progress, [&](std::size_t c) {
+      const std::size_t first = kSlotCluster * c;
+      builder.set_cluster(c,
+                          std::span(rows).subspan(first, std::min<std::size_t>(kSlotCluster, slots - first)));
+    });
+    auto made = builder.finish();
+    out = made.rows;
+    op.owners.push_back(made.owner);
+  };
+  fit(lights, params.coefficients, op.first);
+  std::vector<std::vector<Rgbx>> once(lights.size());
+  parallel_for(lights.size(), 1, [&](std::size_t t) { once[t] = first_bounce(op, lights[t]); });
+  fit(once, params.bounce_coefficients, op.bounce);
+  op.sweeps = enough_sweeps(op.bounce, op.albedo);
+}
+
+/// F, fitted to the lights after all bounces.
+void make_gather(const View& view, const RelightReceivers& receivers, const TransferParams& params,
+                 const OperatorStart& start, const TrainingLight& light, const TransferWork& work,
+                 Operator& op) {
+  const RowMaker maker(view, *start.cloud, start.square);
+  const auto rays = static_cast<uint32_t>(params.rays);
+  const auto row = [&](std::size_t i, RowMaker& rows, std::vector<SparseEntry>& out) {
+    const uint32_t own = start.order[i];
+    const Footprint footprint = receivers.source.footprint(own);
+    const uint32_t stream = mix32(mix32(params.seed, kGatherStream), receivers.places[own]);
+    rows.start();
+    for (uint32_t r = 0; r < rays; ++r) rows.shoot(footprint.sample(sobol_pair(r, 0, stream)), r, stream);
+    rows.finish(rays, out);
+  };
+  const auto cluster = static_cast<std::size_t>(params.cluster);
+  const std::size_t count = start.order.size();
+  ClusterRowsBuilder gather(static_cast<uint32_t>(count), light,
+                            {static_cast<uint32_t>(cluster), static_cast<std::size_t>(params.coefficients)});
+  for_blocks(gather.clusters(), "gather rows", work.progress, [&](std::size_t c) {
+    if (work.state != nullptr)
+      if (std::string_view bytes = work.state->find(c); !bytes.empty()) return gather.unpack(c, bytes);
+    gather.set_cluster(
+        c, make_rows(maker, cluster * c, std::min(cluster, count - cluster * c), work.progress, row));
+    if (work.state == nullptr) return;
+    std::string bytes;
+    gather.pack(c, bytes);
+    work.state->put(c, bytes);
+  });
+  auto made = gather.finish();
+  op.gather = made.rows;
+  op.owners.push_back(made.owner);
 }
 
 }  // namespace
 
 Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
-                       const std::string& scene, const Progress& progress) {
+                       const std::string& scene, const TransferWork& work) {
   check(params);
-  if (receivers.source.count == 0) throw Error({}, "nothing receives light here");
-  const float diagonal = view.world().bounds.diagonal();
-  const auto n = static_cast<uint32_t>(params.gather);
-  const auto cloud = make_cloud_of(view.scene(), view.world(), view.tracer(), receivers.source, params.gather,
-                                   params.seed, progress);
-  progress.check();
-  const std::vector<uint8_t> seen =
-      seen_samples(view.world(), view.tracer(), *cloud, receivers.source, params.seed);
-  progress.check();
-  const CloudSquare square = make_cloud_square(*cloud, params.gather, seen, diagonal);
-  const auto owned = std::make_shared<OwnedArrays>();
-  Operator op;
-
-  const auto points = static_cast<uint32_t>(params.points);
-  owned->lit.resize(std::size_t{points} * n);
-  parallel_for(n, 256, [&](std::size_t slot) {
-    light_points(*cloud, square, static_cast<uint32_t>(slot), points, params.seed,
-                 &owned->lit[points * slot]);
-  });
-
-  const int shift = 4;  // a node for 4 x 4 slots
-  const uint32_t nodes = n >> shift, slots_per_node = 1u << shift;
-  owned->albedo.resize(nodes);
-  for (uint32_t node = 0; node < nodes; ++node) {
-    Rgb mean;
-    for (uint32_t k = 0; k < slots_per_node; ++k)
-      mean += cloud->albedo(square.samples[(node << shift) + k]) / static_cast<float>(slots_per_node);
-    owned->albedo[node] = {mean.r, mean.g, mean.b, 0};
-  }
-  const RowMaker maker(view, *cloud, square);
-  const auto node_row = [&](std::size_t node, RowMaker& rows) {
-    constexpr uint32_t kRaysPerSlot = 32;
-    const uint32_t stream = mix32(mix32(params.seed, kBounceStream), static_cast<uint32_t>(node)),
-                   rays = kRaysPerSlot * slots_per_node;
-    rows.start();
-    for (uint32_t k = 0; k < slots_per_node; ++k) {
-      const uint32_t sample = square.samples[(node << shift) + k];
-      const Footprint footprint = cloud->footprint(sample);
-      for (uint32_t r = k; r < rays; r += slots_per_node)
-        rows.shoot(cloud->point(sample, footprint, sobol_pair(r, 0, stream)), r, stream);
-    }
-    return rays;
-  };
-  op.lit = owned->lit;
-  op.points_per_slot = points;
-  std::vector<SurfacePoint> middles(receivers.source.count);
-  parallel_for(middles.size(), 256,
-               [&](std::size_t i) { middles[i] = receivers.source.footprint(i).sample(Vec2(0.5f)); });
+  OperatorStart start(view, receivers, params, static_cast<std::size_t>(params.cluster), work.progress);
+  Operator op = std::move(start.op);
+  op.scene = scene;
   std::vector<std::vector<Rgbx>> lights =
-      training_lights(view, receivers, middles, op, params.lights, params.seed, progress);
-
-  // From slots to nodes, and from nodes to nodes by the same rays.
-  op.albedo = owned->albedo;
-  {
-    const TrainingLight light(transformed_luminance(lights));
-    ClusterRowsBuilder first(nodes, light, {kNodeCluster, static_cast<std::size_t>(params.coefficients)});
-    std::vector<std::vector<SparseEntry>> coarse(nodes);
-    for_blocks(
-        nodes, kNodeCluster, maker, "bounce rows", progress,
-        [&](std::size_t node, RowMaker& rows, std::vector<SparseEntry>& row) {
-          rows.finish(node_row(node, rows), row);
-        },
-        [&](std::size_t block, std::vector<std::vector<SparseEntry>>& rows) {
-          first.set_cluster(block, rows);
-          for (std::size_t k = 0; k < rows.size(); ++k)
-            coarse[kNodeCluster * block + k] = coarsened(rows[k], shift);
-        });
-    auto made = first.finish();
-    op.first = made.rows;
-    op.owners = {owned, made.owner};
-
-    std::vector<std::vector<Rgbx>> once(lights.size());
-    parallel_for(lights.size(), 1, [&](std::size_t t) { once[t] = first_bounce(op, lights[t]); });
-    const TrainingLight reflected(transformed_luminance(once));
-    ClusterRowsBuilder bounce(nodes, reflected,
-                              {kNodeCluster, static_cast<std::size_t>(params.bounce_coefficients)});
-    parallel_for(bounce.clusters(), 1, [&](std::size_t c) {
-      progress.check();
-      bounce.set_cluster(
-          c, std::span(coarse).subspan(kNodeCluster * c,
-                                       std::min<std::size_t>(kNodeCluster, nodes - kNodeCluster * c)));
-    });
-    made = bounce.finish();
-    op.bounce = made.rows;
-    op.owners.push_back(made.owner);
-  }
-  op.sweeps = enough_sweeps(op.bounce, op.albedo);
-  progress.check();
+      training_lights(view, receivers, start.middles, op, params.lights, params.seed, work.progress);
+  make_bounces(view, params, start, lights, work, op);
+  work.progress.check();
 
   // Receivers see the training lights after all bounces.
   parallel_for(lights.size(), 1, [&](std::size_t t) {
@@ -252,42 +197,8 @@ Operator make_operator(const View& view, const RelightReceivers& receivers, cons
     haar_inverse(lights[t]);
   });
   const TrainingLight light(transformed_luminance(lights));
-  lights.clear();
-  const std::vector<uint32_t> order =
-      cluster_order(middles, static_cast<std::size_t>(params.cluster), diagonal);
-  owned->receivers.resize(order.size());
-  owned->places.resize(order.size());
-  parallel_for(order.size(), 256, [&](std::size_t i) {
-    owned->receivers[i] = pack(middles[order[i]], receivers.albedo(order[i]));
-    owned->places[i] = receivers.places[order[i]];
-  });
-  const auto rays = static_cast<uint32_t>(params.rays);
-  ClusterRowsBuilder gather(
-      static_cast<uint32_t>(order.size()), light,
-      {static_cast<uint32_t>(params.cluster), static_cast<std::size_t>(params.coefficients)});
-  for_blocks(
-      order.size(), static_cast<std::size_t>(params.cluster), maker, "gather rows", progress,
-      [&](std::size_t i, RowMaker& rows, std::vector<SparseEntry>& row) {
-        const Footprint footprint = receivers.source.footprint(order[i]);
-        const uint32_t stream = mix32(mix32(params.seed, kGatherStream), receivers.places[order[i]]);
-        rows.start();
-        for (uint32_t r = 0; r < rays; ++r) rows.shoot(footprint.sample(sobol_pair(r, 0, stream)), r, stream);
-        rows.finish(rays, row);
-      },
-      [&](std::size_t cluster, const std::vector<std::vector<SparseEntry>>& rows) {
-        gather.set_cluster(cluster, rows);
-      });
-  auto made = gather.finish();
-  op.gather = made.rows;
-  op.owners.push_back(made.owner);
-  op.kind = receivers.kind;
-  op.width = receivers.width, op.height = receivers.height, op.pages = receivers.pages;
-  op.camera = receivers.camera.name;
-  op.camera_frame = receivers.camera.frame;
-  op.camera_yfov = receivers.camera.yfov;
-  op.scene = scene;
-  op.receivers = owned->receivers;
-  op.places = owned->places;
+  lights = {};
+  make_gather(view, receivers, params, start, light, work, op);
   return op;
 }
 

@@ -5,13 +5,14 @@
 #pragma once
 
 #include "relight/receivers.h"
+#include "relight/transfer_state.h"
 
 namespace sconce {
 
 struct TransferParams {
   std::size_t gather = 65536;     ///< slots of the cloud's square: a power of four, 256 to 65,536
   int rays = 512;                 ///< per receiver
-  int cluster = 512;              ///< receivers that share a basis, a multiple of 16
+  int cluster = 256;              ///< receivers that share a basis, a multiple of 16
   int coefficients = 1024;        ///< of a basis
   int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
   int points = 4;                 ///< per slot, where direct light is asked for
@@ -19,12 +20,18 @@ struct TransferParams {
   uint32_t seed = 1;
 };
 
-/// Rows stream through compression block by block; F is never held whole. The same bits at any number of
+/// How the work is done; nothing of it changes the result.
+struct TransferWork {
+  Progress progress;
+  TransferState* state = nullptr;  ///< keeps finished rows of F, to go on after an interruption; may be null
+};
+
+/// Rows stream through compression cluster by cluster; F is never held whole. The same bits at any number of
 /// threads.
 /// @param scene  hash that ties the file to its package: operator_scene()
 /// @throws UsageError naming the option; Cancelled
 Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
-                       const std::string& scene, const Progress& progress = {});
+                       const std::string& scene, const TransferWork& work = {});
 
 /// Identity of what an operator depends on in a package: geometry, materials, texels.
 std::string operator_scene(const Package& package);

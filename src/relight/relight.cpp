@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "transfer/folded_bounces.h"
 
 namespace sconce {
 
@@ -23,10 +24,13 @@ SurfacePoint point_of(const OperatorPoint& p) {
 Relighter::Relighter(const Package& package, const View& view, const Operator& op, const MovedLamps& lamps)
     : package_(package), view_(view), op_(op), lamps_(lamps) {
   using Clock = std::chrono::steady_clock;
+  const FoldedBounces bounces(op);
   const auto start = Clock::now();
   std::vector<Rgbx> light = light_cloud(op, lamps);
   const auto lit = Clock::now();
-  indirect_ = indirect_light(op, light);
+  bounces.apply(light);
+  indirect_.resize(op.gather.rows);
+  multiply(op.gather, light, indirect_);
   // What truncated rows leave below zero is darkness.
   for (Rgb& e : indirect_) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
   seconds_.direct = std::chrono::duration<double>(lit - start).count();

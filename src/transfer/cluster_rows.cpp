@@ -3,7 +3,8 @@
 
 #include <Eigen/Dense>
 
-#include "core/parallel.h"
+#include "core/ranks.h"
+#include "core/sobol.h"
 
 namespace sconce {
 
@@ -31,17 +32,31 @@ Matrix answers(std::span<const std::vector<SparseEntry>> rows, const TrainingLig
   return out;
 }
 
-/// Orthonormal columns that hold as much of the answers as sixteen can, by their principal components.
+/// Orthonormal columns that hold nearly as much of the answers as sixteen can: a randomised range finder
+/// with subspace iterations (Halko, Martinsson and Tropp 2011), then its principal components.
 Matrix principal(const Matrix& answers) {
-  const Eigen::MatrixXf gram = answers.transpose() * answers;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(gram);
-  Matrix out = Matrix::Zero(answers.rows(), static_cast<Eigen::Index>(kRank));
-  const Eigen::Index n = gram.rows(), used = std::min<Eigen::Index>(n, kRank);
+  constexpr Eigen::Index kMore = 8;  // than are kept
+  constexpr int kIterations = 3;
+  const auto rank = static_cast<Eigen::Index>(kRank);
+  const Eigen::Index n = std::min({answers.rows(), answers.cols(), rank + kMore});
+  Eigen::MatrixXf range(answers.cols(), n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index t = 0; t < answers.cols(); ++t)
+      range(t, j) =
+          sobol_pair(static_cast<uint32_t>(t), 0, mix32(0x72616e67u, static_cast<uint32_t>(j))).x - 0.5f;
+  Eigen::MatrixXf basis;
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::MatrixXf image = answers * range;
+    basis = Eigen::HouseholderQR<Eigen::MatrixXf>(image).householderQ() *
+            Eigen::MatrixXf::Identity(answers.rows(), n);
+    range = answers.transpose() * basis;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(range.transpose() * range);
+  Matrix out = Matrix::Zero(answers.rows(), rank);
   const float largest = solver.eigenvalues()(n - 1);
-  for (Eigen::Index j = 0; j < used; ++j) {
-    const float value = solver.eigenvalues()(n - 1 - j);
-    if (!(value > 1e-6f * largest)) break;
-    out.col(j) = answers * solver.eigenvectors().col(n - 1 - j) / std::sqrt(value);
+  for (Eigen::Index j = 0; j < std::min(n, rank); ++j) {
+    if (!(solver.eigenvalues()(n - 1 - j) > 1e-6f * largest)) break;
+    out.col(j) = basis * solver.eigenvectors().col(n - 1 - j);
   }
   return out;
 }
@@ -114,6 +129,18 @@ void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::v
   basis_.set_block(cluster, chosen, basis);
 }
 
+void ClusterRowsBuilder::pack(std::size_t cluster, std::string& bytes) const {
+  basis_.pack(cluster, bytes);
+  put_span(bytes, part(weights_, cluster, kRank));
+  put_span(bytes, part(scales_, cluster, 1));
+}
+
+void ClusterRowsBuilder::unpack(std::size_t cluster, std::string_view& bytes) {
+  basis_.unpack(cluster, bytes);
+  take_span(bytes, part(weights_, cluster, kRank));
+  take_span(bytes, part(scales_, cluster, 1));
+}
+
 ClusterRowsBuilder::Result ClusterRowsBuilder::finish() {
   struct Owned {
     std::vector<int16_t> weights;
@@ -127,30 +154,6 @@ ClusterRowsBuilder::Result ClusterRowsBuilder::finish() {
   result.rows = {rows_, params_.cluster, basis.rows, owned->weights, owned->scales};
   result.owner = std::move(owned);
   return result;
-}
-
-void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
-  std::vector<Rgb> sums(kRank * rows.clusters());
-  multiply(rows.basis, light, sums);
-  const std::size_t groups = rows.weights.size() / (kRank * kLanes);
-  constexpr std::size_t kGrain = 256;
-  parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
-    for (std::size_t g = part * kGrain; g < std::min(groups, (part + 1) * kGrain); ++g) {
-      const std::size_t first = g * kLanes;
-      const Rgb* basis = sums.data() + first / rows.cluster * kRank;
-      const int16_t* weights = rows.weights.data() + g * kRank * kLanes;
-      float red[kLanes] = {}, green[kLanes] = {}, blue[kLanes] = {};
-      for (std::size_t j = 0; j < kRank; ++j)
-        for (std::size_t r = 0; r < kLanes; ++r) {
-          const float w = static_cast<float>(weights[j * kLanes + r]);
-          red[r] += w * basis[j].r;
-          green[r] += w * basis[j].g;
-          blue[r] += w * basis[j].b;
-        }
-      for (std::size_t r = 0; r < std::min(kLanes, rows.rows - first); ++r)
-        out[first + r] = rows.scales[first + r] * Rgb(red[r], green[r], blue[r]);
-    }
-  });
 }
 
 }  // namespace sconce

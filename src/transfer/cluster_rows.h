@@ -31,6 +31,10 @@ struct ClusterRows {
 /// @param out    rows
 void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out);
 
+/// The second half of it: rows out of the answers of their clusters' basis rows.
+/// @param basis  kRank per cluster
+void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb> out);
+
 /// Fits rows cluster by cluster to light as it is expected, on any number of threads.
 class ClusterRowsBuilder {
  public:
@@ -45,6 +49,9 @@ class ClusterRowsBuilder {
   /// Rows of a cluster as they were shot.
   /// @param rows  sparse rows, ascending by column: `cluster` of them, fewer in the last
   void set_cluster(std::size_t cluster, std::span<const std::vector<SparseEntry>> rows);
+  /// A finished cluster as bytes, for another builder of the same rows.
+  void pack(std::size_t cluster, std::string& bytes) const;
+  void unpack(std::size_t cluster, std::string_view& bytes);
   struct Result {
     ClusterRows rows;
     std::shared_ptr<const void> owner;
@@ -52,6 +59,13 @@ class ClusterRowsBuilder {
   Result finish();
 
  private:
+  /// What belongs to a cluster.
+  template <class Values>
+  auto part(Values& all, std::size_t cluster, std::size_t per_row) const {
+    const std::size_t size = params_.cluster * per_row, first = cluster * size;
+    return std::span(all).subspan(first, std::min(size, all.size() - first));
+  }
+
   uint32_t rows_;
   const TrainingLight& light_;
   Params params_;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product of wavelet rows and light, compiled for every vector unit that the machine may have.
+// Products of rows and light, compiled for every vector unit that the machine may have.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transfer/multiply.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for each target
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "core/parallel.h"
+#include "transfer/cluster_rows.h"
 #include "transfer/quantise.h"
-#include "transfer/wavelet_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sconce {
@@ -59,6 +61,41 @@ void multiply_blocks(const WaveletRows& rows, std::size_t first, std::size_t end
     multiply_block(rows, block, light, out + WaveletRows::kBlock * block);
 }
 
+/// Rows of a cluster out of the products of its basis, kLanes at a time.
+/// @param sums  per basis row of all clusters
+void combine_groups(const ClusterRows& rows, std::size_t first, std::size_t end, const Rgb* sums, Rgb* out) {
+  constexpr std::size_t kRank = ClusterRows::kRank, kRows = ClusterRows::kLanes;
+  const hn::CappedTag<float, kRows> d;
+  constexpr std::size_t kLanes = hn::MaxLanes(d), kParts = kRows / kLanes;
+  const hn::Rebind<int32_t, decltype(d)> d32;
+  const hn::Rebind<int16_t, decltype(d)> d16;
+  using V = hn::Vec<decltype(d)>;
+  for (std::size_t group = first; group < end; ++group) {
+    const std::size_t row = group * kRows;
+    const Rgb* basis = sums + row / rows.cluster * kRank;
+    const int16_t* weights = rows.weights.data() + group * kRank * kRows;
+    V red[kParts], green[kParts], blue[kParts];
+    for (std::size_t p = 0; p < kParts; ++p) red[p] = green[p] = blue[p] = hn::Zero(d);
+    for (std::size_t j = 0; j < kRank; ++j, weights += kRows) {
+      const V r = hn::Set(d, basis[j].r), g = hn::Set(d, basis[j].g), b = hn::Set(d, basis[j].b);
+      for (std::size_t p = 0; p < kParts; ++p) {
+        const V w = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, weights + p * kLanes)));
+        red[p] = hn::MulAdd(w, r, red[p]);
+        green[p] = hn::MulAdd(w, g, green[p]);
+        blue[p] = hn::MulAdd(w, b, blue[p]);
+      }
+    }
+    alignas(64) float whole[3 * kRows];
+    for (std::size_t p = 0; p < kParts; ++p) {
+      const V scale = hn::LoadU(d, rows.scales.data() + row + p * kLanes);
+      hn::StoreInterleaved3(hn::Mul(scale, red[p]), hn::Mul(scale, green[p]), hn::Mul(scale, blue[p]), d,
+                            whole + 3 * p * kLanes);
+    }
+    std::memcpy(static_cast<void*>(out + row), whole,
+                sizeof(Rgb) * std::min<std::size_t>(kRows, rows.rows - row));
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace sconce
 HWY_AFTER_NAMESPACE();
@@ -67,13 +104,29 @@ HWY_AFTER_NAMESPACE();
 namespace sconce {
 
 HWY_EXPORT(multiply_blocks);
+HWY_EXPORT(combine_groups);
 
 void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
-  constexpr std::size_t kGrain = 256;
+  constexpr std::size_t kGrain = 64;
   parallel_for((rows.blocks() + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
     HWY_DYNAMIC_DISPATCH(multiply_blocks)
     (rows, part * kGrain, std::min(rows.blocks(), (part + 1) * kGrain), light.data(), out.data());
   });
+}
+
+void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb> out) {
+  const std::size_t groups = rows.scales.size() / ClusterRows::kLanes;
+  constexpr std::size_t kGrain = 512;
+  parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
+    HWY_DYNAMIC_DISPATCH(combine_groups)
+    (rows, part * kGrain, std::min(groups, (part + 1) * kGrain), basis.data(), out.data());
+  });
+}
+
+void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+  std::vector<Rgb> basis(ClusterRows::kRank * rows.clusters());
+  multiply(rows.basis, light, basis);
+  combine(rows, basis, out);
 }
 
 }  // namespace sconce

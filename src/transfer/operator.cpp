@@ -96,6 +96,24 @@ std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitanc
   return reflected_once(op, light);
 }
 
+namespace {
+
+/// Adds light of nodes to the coefficients of light per slot. The transform of a square whose blocks are all
+/// even is that of the blocks, times their side.
+void add_transformed(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes) {
+  haar_forward(nodes);
+  const float side = std::sqrt(static_cast<float>(coefficients.size() / nodes.size()));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) coefficients[k][c] += side * nodes[k][c];
+}
+
+}  // namespace
+
+void add_reflected(std::span<Rgbx> exitance, std::vector<Rgbx>& nodes) {
+  haar_forward(exitance);
+  add_transformed(exitance, nodes);
+}
+
 void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
   haar_forward(exitance);
   if (op.sweeps == 0) return;
@@ -109,11 +127,7 @@ void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[k][c] += light[k][c];
   }
-  // The transform of a square whose blocks are all even: that of the blocks, times their side.
-  haar_forward(sum);
-  const float side = std::sqrt(static_cast<float>(exitance.size() / n));
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t c = 0; c < 3; ++c) exitance[k][c] += side * sum[k][c];
+  add_transformed(exitance, sum);
 }
 
 std::vector<Rgb> indirect_light(const Operator& op, std::vector<Rgbx>& exitance) {

@@ -43,8 +43,8 @@ struct Operator {
   std::span<const OperatorPoint> receivers;  ///< per row of `gather`
   std::span<const uint32_t> places;          ///< per row: page * height * width + y * width + x
   ClusterRows gather;                        ///< F: receivers x slots
-  /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots, `bounce` from
-  /// nodes to nodes for light that was reflected and is even.
+  /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots (of one: ADR
+  /// 17), `bounce` from nodes to nodes for light that was reflected and is even.
   ClusterRows first, bounce;
   std::span<const Rgbx> albedo;  ///< per node
   std::vector<std::shared_ptr<const void>> owners;
@@ -67,6 +67,10 @@ std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitanc
 /// The first half of it: the wavelet coefficients of (M + I) b_d. In place. Needs `first`, `bounce`,
 /// `albedo`.
 void bounce_light(const Operator& op, std::span<Rgbx> exitance);
+
+/// Makes wavelet coefficients of b_d and adds light that was reflected, per node.
+/// @param nodes  changed
+void add_reflected(std::span<Rgbx> exitance, std::vector<Rgbx>& nodes);
 
 /// Sweeps after which all light still to come is less than `tolerance` of what started, were it even. A
 /// property of the operator alone, so that its answer is linear.

@@ -10,6 +10,7 @@
 #include "core/sobol.h"
 #include "core/test_data.h"
 #include "core/test_folder.h"
+#include "transfer/folded_bounces.h"
 
 namespace sconce {
 namespace {
@@ -177,6 +178,38 @@ TEST_F(OperatorTest, IsLinearAndColoured) {
     EXPECT_GT(a[i].r, a[i].g);
     EXPECT_NEAR(a[i].b, once[i].b, 1e-6f) << "black in blue: no second bounce";
   }
+}
+
+// One small inverse is the sum of all sweeps.
+TEST_F(OperatorTest, FoldedBouncesAreManySweeps) {
+  op.sweeps = 100;
+  const FoldedBounces bounces(op);
+  std::vector<Rgbx> swept(kSlots), folded;
+  for (uint32_t k = 0; k < kSlots; ++k) swept[k] = {lamp(3)[k], 2 * lamp(4)[k], 1, 0};
+  folded = swept;
+  bounce_light(op, swept);
+  bounces.apply(folded);
+  for (uint32_t k = 0; k < kSlots; ++k)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(folded[k][c], swept[k][c], 1e-5f) << k;
+}
+
+// What another builder takes over as bytes are the same rows.
+TEST(ClusterRows, PackedClustersAreTheSameRows) {
+  const TrainingLight light = training();
+  ClusterRowsBuilder one(80, light, {32, 64}), other(80, light, {32, 64});
+  std::string bytes;
+  for (std::size_t c = 0; c < one.clusters(); ++c) {
+    std::vector<std::vector<SparseEntry>> rows;
+    for (uint32_t r = static_cast<uint32_t>(32 * c);
+         r < std::min<uint32_t>(80, static_cast<uint32_t>(32 * c) + 32); ++r)
+      rows.push_back(bump(r, 80));
+    one.set_cluster(c, rows);
+    one.pack(c, bytes);
+  }
+  std::string_view left = bytes;
+  for (std::size_t c = 0; c < other.clusters(); ++c) other.unpack(c, left);
+  EXPECT_TRUE(left.empty());
+  EXPECT_EQ(product(one.finish().rows, lamp(5)), product(other.finish().rows, lamp(5)));
 }
 
 TEST_F(OperatorTest, FileGivesTheSameAnswers) {

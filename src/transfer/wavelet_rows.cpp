@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transfer/wavelet_rows.h"
 
+#include "core/ranks.h"
 #include "transfer/quantise.h"
 
 namespace sconce {
@@ -63,6 +64,22 @@ void WaveletRowsBuilder::set_block(std::size_t block, std::span<const uint32_t> 
   for (std::size_t i = 0; i < chosen.size(); ++i)
     for (std::size_t r = 0; r < kBlock; ++r)
       out.codes[kBlock * i + r] = quantise(values[chosen[i]][r], out.scales[r]);
+}
+
+void WaveletRowsBuilder::pack(std::size_t block, std::string& bytes) const {
+  const Block& own = blocks_[block];
+  put_vector(bytes, own.indices);
+  put_vector(bytes, own.codes);
+  put_span<float>(bytes, own.scales);
+  put_span<float>(bytes, own.means);
+}
+
+void WaveletRowsBuilder::unpack(std::size_t block, std::string_view& bytes) {
+  Block& own = blocks_[block];
+  take_vector(bytes, own.indices);
+  take_vector(bytes, own.codes);
+  take_span<float>(bytes, own.scales);
+  take_span<float>(bytes, own.means);
 }
 
 WaveletRowsBuilder::Result WaveletRowsBuilder::finish() {

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "core/rgb.h"
 #include "transfer/coefficients.h"
@@ -73,6 +75,9 @@ class WaveletRowsBuilder {
   /// @param chosen  ascending, without 0
   /// @param values  of all coefficients, kBlock rows at a time
   void set_block(std::size_t block, std::span<const uint32_t> chosen, std::span<const Sixteen> values);
+  /// A finished block as bytes, for another builder of the same rows: processes share them, files keep them.
+  void pack(std::size_t block, std::string& bytes) const;
+  void unpack(std::size_t block, std::string_view& bytes);
   /// All blocks as one. The builder is then empty; the rows live as long as the result's owner.
   struct Result {
     WaveletRows rows;

@@ -3,6 +3,7 @@
 // methods.md).
 #include <gtest/gtest.h>
 
+#include "core/hash.h"
 #include "core/test_data.h"
 #include "image/io.h"
 #include "package/glb.h"
@@ -67,6 +68,62 @@ TEST_F(Relight, NewLampsAddAndScale) {
   expect_done(run(
       picture("relight", "both.exr", {"--others", "off", "--light", lamp + "100", "--light", lamp + "300"})));
   EXPECT_NEAR(mean("both.exr") / mean("100.exr"), 4, 1e-3);
+}
+
+// A lamp that is moved to where it stands is the lamp by transfer; elsewhere its light is elsewhere.
+TEST_F(Relight, ALampLeavesItsLayer) {
+  make_room();
+  expect_done(run(picture("relight", "group.exr", {"--light", "group,name=left"})));
+  expect_done(run(picture("relight", "still.exr", {"--move", "left=-0.6,1.98,0"})));
+  expect_done(run(picture("relight", "moved.exr", {"--move", "left=0,1.2,0"})));
+  EXPECT_NEAR(mean("still.exr") / mean("group.exr"), 1, 0.005);
+  EXPECT_EQ(
+      run({"diff", file("moved.exr"), file("group.exr"), "--metric", "rmse", "--fail-above", "20%"}).code, 3);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "nobody=0,1,0"})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1"})).code, 2);
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1,0", "--device", "gl"})).code, 2);
+  const test::Outcome inside =
+      run(picture("relight", "x.exr", {"--light", "point,position=0.4,0.3,-0.3,lumens=10"}));
+  EXPECT_NE(inside.err.find("inside something"), std::string::npos) << inside.err;
+}
+
+// A cut-off state goes on to the same bytes; one of other options is refused.
+TEST_F(Relight, AnInterruptedTransferGoesOn) {
+  make_room();
+  const fs::path op = fs::path(package) / "operators" / "lightmap.bin", state = fs::path(op) += ".state";
+  const std::string whole = read_file(op);
+  EXPECT_FALSE(fs::exists(state));
+  fs::remove(op);
+  fs::create_directory(op);  // so that the end cannot be written: the rows stay in the state
+  EXPECT_EQ(run({"transfer", package, "--gather", "1024"}).code, 1);
+  ASSERT_TRUE(fs::exists(state));
+  fs::remove(op);
+  fs::resize_file(state, fs::file_size(state) - 100);
+  EXPECT_EQ(run({"transfer", package, "--gather", "1024", "--resume", "--rays", "64"}).code, 1);
+  expect_done(run({"transfer", package, "--gather", "1024", "--resume"}));
+  EXPECT_EQ(hash_hex(read_file(op).substr(512)), hash_hex(whole.substr(512))) << "all but the head's options";
+}
+
+// The example host through the C interface. A bulb in a closed empty box: all its light lands, and a share
+// rho / (1 - rho) of it comes back, so that 24 lm on 24 m2 of half-white walls are 1 lux on the mean.
+TEST_F(Relight, AnyHostByTheCInterface) {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "grey", Rgb(0.5f)), Vec3(-1), Vec3(1), true);
+  Light bulb;
+  bulb.intensity = Rgb(1);
+  scene.lights.push_back(bulb);
+  write_file(folder / "room.glb", write_glb(scene, "test"));
+  expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "8"}));
+  expect_done(run({"transfer", package, "--gather", "1024"}));
+  const std::string op = package + "/operators/lightmap.bin";
+  const test::Outcome outcome = test::run_program(INDIRECT, {op, "0.3", "0.2", "-0.4", "1.9098593"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  double lux = 0;
+  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "%*d points, %*d receivers, %lf", &lux), 1) << outcome.out;
+  EXPECT_NEAR(lux, 1, 0.03);
+  const test::Outcome none = test::run_program(INDIRECT, {op + "x", "0", "0", "0", "1"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("lightmap.binx"), std::string::npos) << none.err;
 }
 
 TEST_F(Relight, MistakesAreNamed) {

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Direct light of moved lamps against closed forms; numbers refer to the analytic tests in docs/methods.md.
+#include "relight/moved_lamps.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "light/test_rig.h"
+#include "scene/shapes.h"
+
+namespace sconce {
+namespace {
+
+constexpr float kLuminance = 10;  // cd/m2
+
+/// A square lamp, 1 m wide, 1 m above the origin, and a bulb beside it.
+Scene lamp_scene() {
+  Scene scene;
+  add_quad(scene, "lamp", add_material(scene, "glow", Rgb(0), Rgb(kLuminance)), Vec3(-0.5f, 1, -0.5f),
+           Vec3(1, 0, 0), Vec3(0, 0, 1));
+  Light bulb;
+  bulb.name = "bulb";
+  bulb.intensity = Rgb(4);
+  bulb.frame[3] = glm::vec4(3, 2, 0, 1);
+  scene.lights.push_back(bulb);
+  return scene;
+}
+
+struct Room : LampRig {
+  Tracer tracer;
+  explicit Room(Scene s) : LampRig(std::move(s)), tracer(scene, world) {}
+
+  Id<LightGroup> group(const std::string& name) const {
+    for (std::size_t g = 0; g < scene.groups.size(); ++g)
+      if (scene.groups[g].name == name) return Id<LightGroup>(g);
+    return {};
+  }
+  MovedLamps moved(const std::string& name, std::span<const LampMove> moves = {}) const {
+    const MovedGroup all{group(name), Rgb(1)};
+    return MovedLamps(scene, world, tracer, {}, {&all, 1}, moves);
+  }
+};
+
+SurfacePoint facing_up(const Vec3& at) {
+  return {at, Vec3(0, 1, 0), Vec3(0, 1, 0)};
+}
+
+struct Spread {
+  double mean = 0, deviation = 0, most = 0;
+};
+Spread sampled(const MovedLamps& lamps, const Vec3& at, uint32_t count) {
+  Spread s;
+  double squares = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto e = static_cast<double>(lamps.illuminance(facing_up(at), 7, i).g);
+    s.mean += e / count, squares += e * e / count;
+    s.most = std::max(s.most, e);
+  }
+  s.deviation = std::sqrt(std::max(0.0, squares - s.mean * s.mean));
+  return s;
+}
+
+/// 10. On the axis of a rectangle.
+double on_axis(double distance) {
+  const double a = 0.5 / distance, root = std::sqrt(1 + a * a);
+  return 4 * double{kLuminance} / 2 * 2 * (a / root) * std::atan(a / root);
+}
+
+// Close to a lamp area samples alone are noisy without bound; weighted with rays by the surface's cosine no
+// estimate exceeds twice a hemisphere of the lamp.
+TEST(MovedLamps, CloseToALampIsNotNoisy) {
+  const Room room(lamp_scene());
+  const MovedLamps lamps = room.moved("lamp");
+  for (const float distance : {1.0f, 0.3f, 0.05f}) {
+    const Spread s = sampled(lamps, Vec3(0, 1 - distance, 0), 4096);
+    EXPECT_NEAR(s.mean, on_axis(double{distance}), 0.01 * on_axis(double{distance})) << distance;
+    EXPECT_LE(s.most, 2 * kPiD * double{kLuminance} * (1 + 1e-4)) << distance;
+    EXPECT_LT(s.deviation, 0.6 * s.mean) << distance;
+  }
+}
+
+// 12. A bulb that is moved keeps its intensity: E = I / d2.
+TEST(MovedLamps, AMovedBulbShinesFromItsNewPlace) {
+  const Room room(lamp_scene());
+  const LampMove move = find_move(room.scene, room.lamps, "bulb", Vec3(3, 0.5f, 0), "--move");
+  ASSERT_EQ(move.groups.size(), 1u);
+  EXPECT_NEAR(sampled(room.moved("bulb"), Vec3(3, 0, 0), 1).mean, 4 / 4.0, 1e-5);
+  EXPECT_NEAR(sampled(room.moved("bulb", {&move, 1}), Vec3(3, 0, 0), 1).mean, 4 / 0.25, 1e-4);
+}
+
+// A lamp that is a mesh takes its shape along; rays meet it no more, yet the mean is the same.
+TEST(MovedLamps, AMovedMeshShinesFromItsNewPlace) {
+  const Room room(lamp_scene());
+  const LampMove move = find_move(room.scene, room.lamps, "lamp", Vec3(10, 1, 0), "--move");
+  const MovedLamps lamps = room.moved("lamp", {&move, 1});
+  EXPECT_NEAR(sampled(lamps, Vec3(10, 0, 0), 4096).mean, on_axis(1), 0.01 * on_axis(1));
+  EXPECT_LT(sampled(lamps, Vec3(0, 0, 0), 256).mean, 0.02);
+}
+
+TEST(MovedLamps, UnknownNamesAndSunsAreRefused) {
+  Scene scene = lamp_scene();
+  Light sun;
+  sun.name = "noon";
+  sun.shape = SunLight{};
+  sun.intensity = Rgb(1);
+  scene.lights.push_back(sun);
+  const Room room(scene);
+  EXPECT_THROW(find_move(room.scene, room.lamps, "bulbs", Vec3(0), "--move"), UsageError);
+  EXPECT_THROW(find_move(room.scene, room.lamps, "noon", Vec3(0), "--move"), UsageError);
+}
+
+TEST(MovedLamps, LampsInsideThingsAreFound) {
+  Scene scene = lamp_scene();
+  add_box(scene, "crate", add_material(scene, "wood", Rgb(0.5f)), Vec3(2.5f, 1.5f, -0.5f),
+          Vec3(3.5f, 2.5f, 0.5f), false);
+  const Room room(scene);
+  EXPECT_EQ(room.moved("bulb").buried(), std::vector<std::string>{"bulb"});
+  const LampMove out = find_move(room.scene, room.lamps, "bulb", Vec3(3, 4, 0), "--move");
+  EXPECT_TRUE(room.moved("bulb", {&out, 1}).buried().empty());
+}
+
+}  // namespace
+}  // namespace sconce

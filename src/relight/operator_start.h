@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every way to make an operator begins with: the cloud in its square, and what the file says of slots
+// and receivers.
+#pragma once
+
+#include "core/parallel.h"
+#include "relight/cloud_square.h"
+#include "relight/precompute.h"
+
+namespace sconce {
+
+struct OperatorStart {
+  /// @param leaf  receivers that stay together are multiples of it
+  OperatorStart(const View& view, const RelightReceivers& receivers, const TransferParams& params,
+                std::size_t leaf, const Progress& progress);
+
+  /// Receiver i of the file, which is `order[i]` of the source, at its middle.
+  SurfacePoint middle(std::size_t i) const { return middles[order[i]]; }
+
+  std::unique_ptr<GatherCloud> cloud;
+  CloudSquare square;
+  std::vector<uint32_t> order;        ///< of receivers: alike ones together
+  std::vector<SurfacePoint> middles;  ///< of the source's receivers
+  Operator op;                        ///< all but the matrices, their albedos and the scene's hash
+};
+
+/// Calls f(block) for all blocks on all threads, and tells how many are done.
+template <class F>
+void for_blocks(std::size_t blocks, const char* stage, const Progress& progress, const F& f) {
+  std::atomic<uint64_t> done = 0;
+  progress.at(stage, 0, blocks);
+  parallel_for(blocks, 1, [&](std::size_t b) {
+    progress.check();
+    f(b);
+    progress.at(stage, ++done, blocks);
+  });
+}
+
+}  // namespace sconce

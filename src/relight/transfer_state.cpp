@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relight/transfer_state.h"
+
+#include <xxhash.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/ranks.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr std::string_view kMagic = "sconcet1";
+
+struct RecordHead {
+  uint64_t cluster, bytes, checksum;
+};
+
+std::string head(const std::string& key) {
+  std::string bytes(kMagic);
+  put_vector(bytes, std::vector<char>(key.begin(), key.end()));
+  return bytes;
+}
+
+}  // namespace
+
+TransferState::TransferState(const std::filesystem::path& path, const std::string& key, bool resume)
+    : path_(path) {
+  const std::string begin = head(key);
+  std::error_code ec;
+  if (resume && std::filesystem::exists(path, ec)) {
+    const std::string file = read_file(path);
+    if (!file.starts_with(begin))
+      throw Error(path.string(), "belongs to an operator made otherwise", "the same options, or no --resume");
+    std::string_view left = std::string_view(file).substr(begin.size());
+    // What an interruption cut off is made again.
+    while (left.size() >= sizeof(RecordHead)) {
+      RecordHead record{};
+      take_span(left, std::span(&record, 1));
+      if (record.bytes > left.size() || XXH3_64bits(left.data(), record.bytes) != record.checksum) break;
+      records_[record.cluster] = left.substr(0, record.bytes);
+      left.remove_prefix(record.bytes);
+    }
+  }
+  file_.reset(std::fopen(path.c_str(), "wb"));
+  if (!file_ || std::fwrite(begin.data(), begin.size(), 1, file_.get()) != 1)
+    throw Error(path.string(), "cannot be written");
+  for (const auto& [cluster, bytes] : records_) put(cluster, bytes);
+}
+
+std::string_view TransferState::find(std::size_t cluster) const {
+  const auto it = records_.find(cluster);
+  return it == records_.end() ? std::string_view() : std::string_view(it->second);
+}
+
+void TransferState::put(std::size_t cluster, std::string_view bytes) {
+  const std::scoped_lock lock(mutex_);
+  const RecordHead record{cluster, bytes.size(), XXH3_64bits(bytes.data(), bytes.size())};
+  if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1 ||
+      std::fwrite(bytes.data(), bytes.size(), 1, file_.get()) != 1 || std::fflush(file_.get()) != 0)
+    throw Error(path_.string(), "cannot be written");
+}
+
+void TransferState::remove() {
+  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace sconce
