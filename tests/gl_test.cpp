@@ -202,6 +202,41 @@ TEST_F(GlPictures, EveryEncodingInEveryTier) {
   EXPECT_GE(shaders.size(), 13u);
 }
 
+/// Four groups across a wall, each from 4000 lux down to a 400,000th of it, in its own direction and colour.
+PackageContents contrasty_wall(const std::string& encoding) {
+  constexpr int kSide = 64;
+  PackageContents c = test_package(4, 1, kSide, kSide);
+  c.encodings.assign(4, encoding);
+  for (std::size_t g = 0; g < 4; ++g)
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const auto along =
+            static_cast<float>(g % 2 == 0 ? x : kSide - 1 - x) + static_cast<float>(g < 2 ? y : x);
+        const float e = 4000 * std::pow(400000.0f, -along / (2 * kSide - 2));
+        c.layers[g][0].set_rgb(x, y, {e, (0.4f + 0.15f * static_cast<float>(g)) * e, 0.6f * e});
+      }
+  return c;
+}
+
+// From package to picture: no encoding, however few values it has, shows other light by OpenGL than on the
+// CPU.
+TEST_F(GlPictures, PackagesOf400000ToOneInEveryEncoding) {
+  for (const char* name : {"f32", "f16", "exp8", "rgbe8", "srgbe8", "multi8", "bc6h", "lum:f32", "lum:f16",
+                           "lum:exp8", "lum:multi8"}) {
+    SCOPED_TRACE(name);
+    const PackageContents contents = contrasty_wall(name);
+    fs::remove_all(path("x.sconce"));
+    write_package(path("x.sconce"), contents);
+    expect_alike({"b=+1ev", "c=50%"});
+    const EncodingChoice choice = parse_encoding(name);
+    if (choice.luminance || choice.encoding->has_gain || choice.encoding->type == TexelType::bc6h) continue;
+    const Image kept = Package::open(path("x.sconce")).layer(0, 0), &given = contents.layers[0][0];
+    for (std::size_t i = 0; i < given.data.size(); ++i)
+      ASSERT_NEAR(kept.data[i], given.data[i],
+                  choice.encoding->max_relative_error * given.data[i - i % 3] + 1e-12f);
+  }
+}
+
 // The block's sides lie in the source twice, one on the other: either may be seen.
 TEST_F(GlPictures, CornellWithTwoLights) {
   SCONCE_NEEDS_DATA(test_data() / "glb/cornell-two-lights.glb");
