@@ -13,6 +13,7 @@
 #include "package/test_package.h"
 #include "picture/render.h"
 #include "process.h"
+#include "small_scenes.h"
 #include "stage.h"
 #include "tone/apply.h"
 
@@ -24,10 +25,10 @@ namespace {
 class GlPictures : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void bake(const fs::path& scene, const char* atlas) {
+  void bake(const fs::path& scene, const char* atlas, const char* basis = "flat") {
     const auto outcome =
         test::run_sconce({"bake", scene.string(), "-o", path("x.sconce"), "--atlas", atlas, "--samples", "2",
-                          "--solver", "path", "--bounces", "1", "--quiet"});
+                          "--solver", "path", "--bounces", "1", "--basis", basis, "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   /// By every curve, through the scene's first or the named camera.
@@ -71,6 +72,87 @@ TEST_F(GlPictures, OurBathroom) {
   expect_alike();
   expect_alike({"window=off", "mirror=2700K,+2ev"}, "shower");
   expect_alike({}, "", "half");
+}
+
+/// Waves on all surfaces, by tangents of the mesh or without, on flat and on smooth ones, mirrored in one
+/// wall, on both sides of a screen.
+Scene bumpy_room() {
+  Scene scene = test::two_lamp_room();
+  const auto screen = add_material(scene, "screen", Rgb(0.6f, 0.7f, 0.5f), {}, true);
+  add_sphere(scene, "ball", Id<Material>(0), Vec3(-0.45f, 0.35f, -0.3f), 0.35f, 8, false);
+  add_quad(scene, "screen", screen, Vec3(0.2f, 0, 0.1f), Vec3(0.6f, 0, 0.3f), Vec3(0, 0.9f, 0));
+  constexpr int kSide = 64;
+  Texture map;
+  map.name = "waves";
+  map.pixels = {kSide, kSide, 3, {}};
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const float turn = 2 * kPi / kSide;
+      const Vec3 n = glm::normalize(Vec3(0.6f * std::sin(turn * static_cast<float>(2 * x)),
+                                         0.4f * std::cos(turn * static_cast<float>(x + 3 * y)), 1));
+      for (int axis = 0; axis < 3; ++axis)
+        map.pixels.data.push_back(static_cast<unsigned char>(std::lround(127.5f * (n[axis] + 1))));
+    }
+  scene.textures = {map};
+  for (Material& material : scene.materials) {
+    material.normal_texture.texture = Id<Texture>(0);
+    material.normal_texture.scale = {3, 2};
+    material.normal_scale = 0.8f;
+  }
+  scene.materials[1].normal_texture.scale = {-2, 2};
+  for (Mesh& mesh : scene.meshes) {
+    mesh.texcoords = {{}};
+    for (const Vec3& p : mesh.positions) mesh.texcoords[0].emplace_back(p.x + 0.7f * p.z, p.y - 0.4f * p.z);
+    if (mesh.name == "back" || mesh.name == "floor") mesh.tangents.assign(4, {0.8f, 0, 0.6f, -1});
+  }
+  return scene;
+}
+
+// Normal maps under directional light, both ways to mix.
+TEST_F(GlPictures, NormalMapsInEveryTier) {
+  write_file(path("bumpy.glb"), write_glb(bumpy_room(), "test"));
+  bake(path("bumpy.glb"), "256", "sh1");
+  expect_alike({"left=2700K,+1ev"});
+  const Package package = Package::open(path("x.sconce"));
+  const MixSpec mix =
+      make_mix(package.manifest().groups, std::vector<std::string>{"left=2700K,+1ev"}, "", {});
+  const Metering metering = meter(package, mix, mix_pages(package, mix));
+  const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
+  const ToneMapper& agx = find_tone_mapper("agx");
+  const PictureParams params{.width = 320, .height = 320, .samples = 1};
+  const View cpu(package);
+  const Camera camera = cpu.camera("");
+  const gpu::Context context;
+  const ShownScene shown(package);
+  gpu::View gl(context, shown, true);
+  for (const ShaderTier& tier : shader_tiers()) {
+    SCOPED_TRACE(tier.name);
+    const EncodedLayers layers = gpu::for_tier(read_layers(package, coefficients(Basis::sh1)), tier);
+    std::vector<std::vector<Image>> mixed;
+    for (std::size_t c = 0; c < layers.coefficients(); ++c)
+      mixed.push_back(plain_mix(layers, mix.weights, c));
+    std::vector<Image> components;
+    for (std::size_t page = 0; page < mixed.front().size(); ++page)
+      for (std::size_t c = 1; c < mixed.size(); ++c) components.push_back(mixed[c][page]);
+    const auto expected =
+        tone_map(cpu.render(camera, mix, mixed.front(), params, {}, nullptr, {}, components), exposure, agx);
+    const auto look = [&](const gpu::LightSource& light) {
+      gl.draw(camera, mix.weights, light, params);
+      return gl.toned(exposure, agx);
+    };
+    gpu::PixelMix pixel(context, layers, tier);
+    pixel.set(mix.weights);
+    EXPECT_GE(share_alike(expected, look(pixel)), 0.995);
+    if (tier.f16) {
+      for (const auto form : {gpu::AtlasMix::Form::fragment, gpu::AtlasMix::Form::compute}) {
+        const gpu::AtlasMix atlas(context, layers, tier, form);
+        atlas.mix(mix.weights);
+        EXPECT_GE(share_alike(expected, look(atlas)), 0.995);
+      }
+    }
+    const auto smooth = tone_map(cpu.render(camera, mix, mixed.front(), params), exposure, agx);
+    EXPECT_LT(share_alike(expected, smooth), 0.5) << "the maps should be seen";
+  }
 }
 
 /// The package's layers in another encoding.
@@ -118,6 +200,41 @@ TEST_F(GlPictures, EveryEncodingInEveryTier) {
     }
   }
   EXPECT_GE(shaders.size(), 13u);
+}
+
+/// Four groups across a wall, each from 4000 lux down to a 400,000th of it, in its own direction and colour.
+PackageContents contrasty_wall(const std::string& encoding) {
+  constexpr int kSide = 64;
+  PackageContents c = test_package(4, 1, kSide, kSide);
+  c.encodings.assign(4, encoding);
+  for (std::size_t g = 0; g < 4; ++g)
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const auto along =
+            static_cast<float>(g % 2 == 0 ? x : kSide - 1 - x) + static_cast<float>(g < 2 ? y : x);
+        const float e = 4000 * std::pow(400000.0f, -along / (2 * kSide - 2));
+        c.layers[g][0].set_rgb(x, y, {e, (0.4f + 0.15f * static_cast<float>(g)) * e, 0.6f * e});
+      }
+  return c;
+}
+
+// From package to picture: no encoding, however few values it has, shows other light by OpenGL than on the
+// CPU.
+TEST_F(GlPictures, PackagesOf400000ToOneInEveryEncoding) {
+  for (const char* name : {"f32", "f16", "exp8", "rgbe8", "srgbe8", "multi8", "bc6h", "lum:f32", "lum:f16",
+                           "lum:exp8", "lum:multi8"}) {
+    SCOPED_TRACE(name);
+    const PackageContents contents = contrasty_wall(name);
+    fs::remove_all(path("x.sconce"));
+    write_package(path("x.sconce"), contents);
+    expect_alike({"b=+1ev", "c=50%"});
+    const EncodingChoice choice = parse_encoding(name);
+    if (choice.luminance || choice.encoding->has_gain || choice.encoding->type == TexelType::bc6h) continue;
+    const Image kept = Package::open(path("x.sconce")).layer(0, 0), &given = contents.layers[0][0];
+    for (std::size_t i = 0; i < given.data.size(); ++i)
+      ASSERT_NEAR(kept.data[i], given.data[i],
+                  choice.encoding->max_relative_error * given.data[i - i % 3] + 1e-12f);
+  }
 }
 
 // The block's sides lie in the source twice, one on the other: either may be seen.

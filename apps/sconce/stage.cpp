@@ -83,8 +83,9 @@ class GlStage : public Stage {
         context_(std::move(context)),
         tier_(&(tier == "auto" ? gpu::tier_of(context_->capabilities()) : find_shader_tier(tier))),
         shown_(package),
-        layers_(gpu::for_tier(read_layers(package), *tier_)),
-        view_(*context_, shown_) {}
+        directional_(package.manifest().basis == Basis::sh1 && shown_.scene.has_normal_maps()),
+        layers_(gpu::for_tier(read_layers(package, directional_ ? coefficients(Basis::sh1) : 1), *tier_)),
+        view_(*context_, shown_, directional_) {}
   std::string device() const override { return context_->capabilities().renderer; }
   const Scene& scene() const override { return shown_.scene; }
   // Finding a free view needs rays.
@@ -94,8 +95,6 @@ class GlStage : public Stage {
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
     check_pages(package_->manifest(), mix, pages);
-    if (package_->manifest().basis == Basis::sh1 && scene().has_normal_maps())
-      progress.warn("OpenGL shows surfaces without their normal maps; --device cpu sees them");
     const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
     view_.draw(camera, mix.weights, *light, params, progress);
   }
@@ -110,6 +109,7 @@ class GlStage : public Stage {
   std::unique_ptr<gpu::Context> context_;
   const ShaderTier* tier_;
   ShownScene shown_;
+  bool directional_;  ///< normal maps are seen
   EncodedLayers layers_;
   gpu::View view_;
 };
@@ -131,9 +131,7 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device) {
 std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
                                   const std::string& tier) {
   if (device == "software") return std::make_unique<SoftwareStage>(package);
-  // Normal maps are seen by rays only.
-  const bool rays = device == "auto" && package.manifest().basis != Basis::flat;
-  if (auto context = open_context(rays ? "cpu" : device))
+  if (auto context = open_context(device))
     return std::make_unique<GlStage>(package, std::move(context), tier);
   return std::make_unique<CpuStage>(package);
 }

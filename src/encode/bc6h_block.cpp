@@ -2,29 +2,30 @@
 #include "encode/bc6h_block.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <vector>
+
+#include "encode/bc6h_fields.h"
 
 namespace sconce {
 
 namespace {
 
 using Ints = std::array<int, 3>;
-using Line = std::array<Ints, 2>;  // endpoints, as stored or in 16 bits
 using Colour = std::array<double, 3>;
+using Line = std::array<Colour, 2>;  // endpoints in 16 bits
+using Lines = std::array<Line, 2>;   // per subset
+using Texels = std::array<Colour, 16>;
 
-/// Bits of the first endpoint and of the second: of the difference where `delta` says so.
-struct Mode {
-  unsigned id;
-  int bits, second_bits;
-  bool delta;
-};
-constexpr Mode kModes[] = {
-    {0x03, 10, 10, false}, {0x07, 11, 9, true}, {0x0b, 12, 8, true}, {0x0f, 16, 4, true}};
-constexpr int kModeBits = 5, kLowBits = 10;  // the first endpoints' low bits come first
-constexpr int kWeights[16] = {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
+constexpr int kWeights4[16] = {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
+constexpr int kWeights3[8] = {0, 9, 18, 27, 37, 46, 55, 64};
 constexpr int kTop = 0x7bff;  // the largest half
+
+int weight(const Bc6hMode& mode, int index) {
+  return mode.subsets == 1 ? kWeights4[index] : kWeights3[index];
+}
 
 int unquantise(int v, int bits) {
   if (bits >= 16 || v == 0) return v;
@@ -44,110 +45,63 @@ int quantise(double v, int bits) {
   return best;
 }
 
-int interpolate(int a, int b, int index) {
-  return (a * (64 - kWeights[index]) + b * kWeights[index] + 32) >> 6;
+int interpolate(int a, int b, int weight) {
+  return (a * (64 - weight) + b * weight + 32) >> 6;
 }
 
 uint16_t to_half_bits(int v) {
   return static_cast<uint16_t>((v * 31) >> 6);
 }
 
-/// A block in the making.
-struct Candidate {
-  const Mode* mode = nullptr;
-  Line stored{};
-  std::array<int, 16> index{};
-  double error = std::numeric_limits<double>::infinity();
-};
-
-class Bits {
- public:
-  explicit Bits(uint8_t* bytes) : bytes_(bytes) {}
-  void put(int value, int count) {
-    for (int i = 0; i < count; ++i) put_bit(value >> i & 1);
-  }
-  /// Highest bit first, as the modes with wide endpoints want their upper bits.
-  void put_reversed(int value, int count) {
-    for (int i = count - 1; i >= 0; --i) put_bit(value >> i & 1);
-  }
-  int get(int count) {
-    int value = 0;
-    for (int i = 0; i < count; ++i) value |= get_bit() << i;
-    return value;
-  }
-  int get_reversed(int count) {
-    int value = 0;
-    for (int i = 0; i < count; ++i) value = value << 1 | get_bit();
-    return value;
-  }
-
- private:
-  void put_bit(int bit) {
-    bytes_[at_ / 8] = static_cast<uint8_t>(bytes_[at_ / 8] | bit << (at_ % 8));
-    ++at_;
-  }
-  int get_bit() {
-    const int bit = bytes_[at_ / 8] >> (at_ % 8) & 1;
-    ++at_;
-    return bit;
-  }
-  uint8_t* bytes_;
-  int at_ = 0;
-};
-
-/// Endpoints as stored in this mode; none where their difference does not fit.
-std::optional<Line> store(const std::array<Colour, 2>& ends, const Mode& mode) {
-  Line stored;
+/// The colours that a subset's indices stand for, as halves' bits.
+std::array<Ints, 16> palette(const Bc6hFields& fields, std::size_t subset) {
+  std::array<Ints, 16> colours{};
+  const Bc6hMode& mode = *fields.mode;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t e = 0; e < 2; ++e) stored[e][k] = quantise(ends[e][k], mode.bits);
-    const int reach = 1 << (mode.second_bits - 1), difference = stored[1][k] - stored[0][k];
-    if (mode.delta && (difference < -reach || difference >= reach)) return {};
+    const int a = unquantise(fields.ends[2 * subset][k], mode.bits),
+              b = unquantise(fields.ends[2 * subset + 1][k], mode.bits);
+    for (int i = 0; i < 1 << mode.index_bits(); ++i)
+      colours[static_cast<std::size_t>(i)][k] = to_half_bits(interpolate(a, b, weight(mode, i)));
   }
-  return stored;
+  return colours;
 }
 
-Line unquantise(const Line& stored, const Mode& mode) {
-  Line ends = stored;
-  for (Ints& end : ends)
-    for (int& v : end) v = unquantise(v, mode.bits);
-  return ends;
-}
-
-/// Nearest index of every texel, and what that leaves of error.
-void choose_indices(const HalfBlock& texels, Candidate& c) {
-  const Line ends = unquantise(c.stored, *c.mode);
-  std::array<Ints, 16> palette;
-  for (int i = 0; i < 16; ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      palette[static_cast<std::size_t>(i)][k] = to_half_bits(interpolate(ends[0][k], ends[1][k], i));
-  c.error = 0;
+/// Nearest index of every texel. @return what that leaves of error
+double choose_indices(const HalfBlock& texels, Bc6hFields& fields) {
+  const std::array<std::array<Ints, 16>, 2> palettes{palette(fields, 0), palette(fields, 1)};
+  double error = 0;
   for (std::size_t t = 0; t < 16; ++t) {
+    const std::array<Ints, 16>& colours = palettes[fields.subset(t)];
     double nearest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 1 << fields.mode->index_bits(); ++i) {
       double d = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const double x = palette[static_cast<std::size_t>(i)][k] - texels[t][k];
+        const double x = colours[static_cast<std::size_t>(i)][k] - texels[t][k];
         d += x * x;
       }
-      if (d < nearest) nearest = d, c.index[t] = i;
+      if (d < nearest) nearest = d, fields.index[t] = i;
     }
-    c.error += nearest;
+    error += nearest;
   }
+  return error;
 }
 
-/// Endpoints that fit the texels best with these indices: 2 x 2 normal equations, the same for each channel.
-std::array<Colour, 2> fit(const std::array<Colour, 16>& wide, const std::array<int, 16>& index) {
-  double aa = 0, ab = 0, bb = 0;
+/// Endpoints that fit a subset's texels best with these indices: 2 x 2 normal equations, the same for each
+/// channel.
+Line fit(const Texels& wide, const Bc6hFields& fields, std::size_t subset) {
+  double aa = 0, ab = 0, bb = 0, count = 0;
   Colour at{}, bt{};
   for (std::size_t t = 0; t < 16; ++t) {
-    const double b = kWeights[index[t]] / 64.0, a = 1 - b;
-    aa += a * a, ab += a * b, bb += b * b;
+    if (fields.subset(t) != subset) continue;
+    const double b = weight(*fields.mode, fields.index[t]) / 64.0, a = 1 - b;
+    aa += a * a, ab += a * b, bb += b * b, ++count;
     for (std::size_t k = 0; k < 3; ++k) at[k] += a * wide[t][k], bt[k] += b * wide[t][k];
   }
   const double determinant = aa * bb - ab * ab;
-  std::array<Colour, 2> ends;
+  Line ends;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double first = determinant > 1e-9 ? (bb * at[k] - ab * bt[k]) / determinant : (at[k] + bt[k]) / 16;
+    const double first =
+        determinant > 1e-9 ? (bb * at[k] - ab * bt[k]) / determinant : (at[k] + bt[k]) / count;
     const double second = determinant > 1e-9 ? (aa * bt[k] - ab * at[k]) / determinant : first;
     ends[0][k] = std::clamp(first, 0.0, 65535.0);
     ends[1][k] = std::clamp(second, 0.0, 65535.0);
@@ -155,15 +109,21 @@ std::array<Colour, 2> fit(const std::array<Colour, 16>& wide, const std::array<i
   return ends;
 }
 
-/// Along the direction in which the texels vary most.
-std::array<Colour, 2> principal_line(const std::array<Colour, 16>& wide) {
+struct Principal {
+  Line line;
+  double off = 0;  ///< squared distances of the texels from the line
+};
+
+/// Along the direction in which the texels of a mask vary most.
+Principal principal_line(const Texels& wide, unsigned mask) {
+  const auto count = static_cast<double>(std::popcount(mask));
   Colour mean{};
-  for (const Colour& c : wide)
-    for (std::size_t k = 0; k < 3; ++k) mean[k] += c[k] / 16;
-  double covariance[3][3] = {};
-  for (const Colour& c : wide)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) covariance[i][j] += (c[i] - mean[i]) * (c[j] - mean[j]);
+  double covariance[3][3] = {}, spread = 0;
+  for (std::size_t t = 0; t < 16; ++t)
+    for (std::size_t k = 0; k < 3 && (mask >> t & 1) != 0; ++k) mean[k] += wide[t][k] / count;
+  for (std::size_t t = 0; t < 16; ++t)
+    for (std::size_t i = 0; i < 3 && (mask >> t & 1) != 0; ++i)
+      for (std::size_t j = 0; j < 3; ++j) covariance[i][j] += (wide[t][i] - mean[i]) * (wide[t][j] - mean[j]);
   Colour axis{1, 1, 1};
   for (int round = 0; round < 8; ++round) {
     Colour next{};
@@ -171,97 +131,110 @@ std::array<Colour, 2> principal_line(const std::array<Colour, 16>& wide) {
       for (std::size_t j = 0; j < 3; ++j) next[i] += covariance[i][j] * axis[j];
     const double length = std::sqrt(next[0] * next[0] + next[1] * next[1] + next[2] * next[2]);
     if (!(length > 0)) break;
+    spread = length;
     for (std::size_t k = 0; k < 3; ++k) axis[k] = next[k] / length;
   }
   double low = 0, high = 0;
   const double norm = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
-  for (const Colour& c : wide) {
+  for (std::size_t t = 0; t < 16; ++t) {
+    if ((mask >> t & 1) == 0) continue;
     double along = 0;
-    for (std::size_t k = 0; k < 3; ++k) along += (c[k] - mean[k]) * axis[k] / norm;
+    for (std::size_t k = 0; k < 3; ++k) along += (wide[t][k] - mean[k]) * axis[k] / norm;
     low = std::min(low, along), high = std::max(high, along);
   }
-  std::array<Colour, 2> ends;
+  Principal found;
   for (std::size_t k = 0; k < 3; ++k) {
-    ends[0][k] = std::clamp(mean[k] + low * axis[k], 0.0, 65535.0);
-    ends[1][k] = std::clamp(mean[k] + high * axis[k], 0.0, 65535.0);
+    found.line[0][k] = std::clamp(mean[k] + low * axis[k], 0.0, 65535.0);
+    found.line[1][k] = std::clamp(mean[k] + high * axis[k], 0.0, 65535.0);
   }
-  return ends;
+  found.off = std::max(0.0, covariance[0][0] + covariance[1][1] + covariance[2][2] - spread);
+  return found;
 }
 
-std::array<uint8_t, 16> pack(Candidate c) {
-  // The first index has one bit less: its highest is 0.
-  if (c.index[0] >= 8) {
-    std::swap(c.stored[0], c.stored[1]);
-    for (int& i : c.index) i = 15 - i;
+/// Turns the lines round whose anchors have too high an index.
+void settle_anchors(Bc6hFields& fields) {
+  const int highest = (1 << fields.mode->index_bits()) - 1;
+  for (std::size_t s = 0; s < static_cast<std::size_t>(fields.mode->subsets); ++s) {
+    if (fields.index[fields.anchor(s)] <= highest / 2) continue;
+    std::swap(fields.ends[2 * s], fields.ends[2 * s + 1]);
+    for (std::size_t t = 0; t < 16; ++t)
+      if (fields.subset(t) == s) fields.index[t] = highest - fields.index[t];
   }
-  std::array<uint8_t, 16> block{};
-  Bits bits(block.data());
-  bits.put(static_cast<int>(c.mode->id), kModeBits);
-  for (std::size_t k = 0; k < 3; ++k) bits.put(c.stored[0][k], kLowBits);
-  for (std::size_t k = 0; k < 3; ++k) {
-    bits.put(c.mode->delta ? c.stored[1][k] - c.stored[0][k] : c.stored[1][k], c.mode->second_bits);
-    bits.put_reversed(c.stored[0][k] >> kLowBits, c.mode->bits - kLowBits);
-  }
-  for (std::size_t t = 0; t < 16; ++t) bits.put(c.index[t], t == 0 ? 3 : 4);
-  return block;
 }
 
-/// Swapping the endpoints turns a difference of -reach into one that does not fit.
-bool packs(const Candidate& c) {
-  if (!c.mode->delta || c.index[0] < 8) return true;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (c.stored[0][k] - c.stored[1][k] >= 1 << (c.mode->second_bits - 1)) return false;
-  return true;
+/// Whether offsets may fit when a subset's endpoints are in the right order.
+bool may_fit(Bc6hFields fields) {
+  if (fits(fields)) return true;
+  std::swap(fields.ends[0], fields.ends[1]);
+  return fits(fields);
 }
+
+struct Best {
+  Bc6hFields fields;
+  double error = std::numeric_limits<double>::infinity();
+
+  /// From these lines on, refined, in every mode with so many subsets.
+  void search(const HalfBlock& texels, const Texels& wide, int subsets, int shape, const Lines& lines) {
+    constexpr int kRefinements = 2;
+    for (const Bc6hMode& mode : bc6h_modes()) {
+      if (mode.subsets != subsets) continue;
+      Lines at = lines;
+      for (int round = 0; round <= kRefinements; ++round) {
+        Bc6hFields tried{&mode, {}, shape, {}};
+        for (std::size_t e = 0; e < 2 * static_cast<std::size_t>(subsets); ++e)
+          for (std::size_t k = 0; k < 3; ++k) tried.ends[e][k] = quantise(at[e / 2][e % 2][k], mode.bits);
+        if (!may_fit(tried)) break;
+        const double left = choose_indices(texels, tried);
+        for (std::size_t s = 0; s < static_cast<std::size_t>(subsets); ++s) at[s] = fit(wide, tried, s);
+        settle_anchors(tried);
+        if (left < error && fits(tried)) error = left, fields = tried;
+      }
+    }
+  }
+};
 
 }  // namespace
 
 std::array<uint8_t, 16> encode_bc6h_block(const HalfBlock& texels) {
-  std::array<Colour, 16> wide;  // undoing to_half_bits
+  Texels wide;  // undoing to_half_bits
   for (std::size_t t = 0; t < 16; ++t)
     for (std::size_t k = 0; k < 3; ++k) wide[t][k] = std::min(65535.0, (texels[t][k] + 0.5) * 64.0 / 31.0);
 
-  constexpr int kRefinements = 2;
-  Candidate best;
-  const std::array<Colour, 2> line = principal_line(wide);
-  for (const Mode& mode : kModes) {
-    std::array<Colour, 2> ends = line;
-    for (int round = 0; round <= kRefinements; ++round) {
-      const std::optional<Line> stored = store(ends, mode);
-      if (!stored) break;
-      Candidate c{&mode, *stored};
-      choose_indices(texels, c);
-      if (c.error < best.error && packs(c)) best = c;
-      ends = fit(wide, c.index);
-    }
+  constexpr unsigned kAll = 0xffff;
+  Best best;
+  best.search(texels, wide, 1, 0, {principal_line(wide, kAll).line});
+  constexpr double kGoodEnough = 48 * 25;  // 48 values off by 5 steps of halves: 0.34 %
+  if (best.error < kGoodEnough) return pack_bc6h(best.fields);
+  // Two lines, in the shapes whose texels lie nearest to them.
+  struct Split {
+    int shape;
+    Lines lines;
+    double off;
+  };
+  std::vector<Split> splits;
+  for (int shape = 0; shape < kBc6hShapes; ++shape) {
+    unsigned second = 0;
+    for (std::size_t t = 0; t < 16; ++t) second |= static_cast<unsigned>(Bc6hFields::second(shape, t)) << t;
+    const Principal a = principal_line(wide, kAll & ~second), b = principal_line(wide, second);
+    splits.push_back({shape, {a.line, b.line}, a.off + b.off});
   }
-  return pack(best);
+  constexpr std::size_t kShapesTried = 4;
+  std::partial_sort(splits.begin(), splits.begin() + kShapesTried, splits.end(),
+                    [](const Split& a, const Split& b) { return a.off < b.off; });
+  for (std::size_t i = 0; i < kShapesTried; ++i)
+    best.search(texels, wide, 2, splits[i].shape, splits[i].lines);
+  return pack_bc6h(best.fields);
 }
 
 HalfBlock decode_bc6h_block(std::span<const uint8_t, 16> block) {
   HalfBlock texels{};
-  std::array<uint8_t, 16> bytes;
-  std::copy(block.begin(), block.end(), bytes.begin());
-  Bits bits(bytes.data());
-  const auto id = static_cast<unsigned>(bits.get(kModeBits));
-  const auto mode =
-      std::find_if(std::begin(kModes), std::end(kModes), [&](const Mode& m) { return m.id == id; });
-  if (mode == std::end(kModes)) return texels;
-  Line stored;
-  for (std::size_t k = 0; k < 3; ++k) stored[0][k] = bits.get(kLowBits);
-  for (std::size_t k = 0; k < 3; ++k) {
-    stored[1][k] = bits.get(mode->second_bits);
-    stored[0][k] |= bits.get_reversed(mode->bits - kLowBits) << kLowBits;
-    if (!mode->delta) continue;
-    const int sign = 1 << (mode->second_bits - 1);
-    stored[1][k] = (stored[0][k] + (stored[1][k] ^ sign) - sign) & ((1 << mode->bits) - 1);
-  }
-  const Line ends = unquantise(stored, *mode);
-  for (std::size_t t = 0; t < 16; ++t) {
-    const int index = bits.get(t == 0 ? 3 : 4);
+  const Bc6hFields fields = unpack_bc6h(block);
+  if (fields.mode == nullptr) return texels;
+  const std::array<std::array<Ints, 16>, 2> palettes{palette(fields, 0), palette(fields, 1)};
+  for (std::size_t t = 0; t < 16; ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      texels[t][k] = std::min<uint16_t>(kTop, to_half_bits(interpolate(ends[0][k], ends[1][k], index)));
-  }
+      texels[t][k] = static_cast<uint16_t>(
+          std::min(kTop, palettes[fields.subset(t)][static_cast<std::size_t>(fields.index[t])][k]));
   return texels;
 }
 

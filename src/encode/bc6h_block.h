@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One 4 x 4 block of BC6H, unsigned (Khronos Data Format Specification 1.3, section 21): the four modes with
-// one subset. Colours are on a line between two endpoints, in the integer space of half floats, which is
-// nearly logarithmic.
+// One 4 x 4 block of BC6H, unsigned (Khronos Data Format Specification 1.3, section 21): all its modes.
+// Colours are on one line or two between endpoints, in the integer space of half floats, which is nearly
+// logarithmic.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ using HalfBlock = std::array<std::array<uint16_t, 3>, 16>;
 /// Least squares in that space, refined, in whichever mode comes nearest.
 std::array<uint8_t, 16> encode_bc6h_block(const HalfBlock& texels);
 
-/// Blocks of other modes than the four decode to 0.
+/// Blocks of reserved modes decode to 0.
 HalfBlock decode_bc6h_block(std::span<const uint8_t, 16> block);
 
 }  // namespace sconce

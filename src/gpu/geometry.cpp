@@ -17,6 +17,15 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 15 * sizeof(float));
 
+/// And what it reads where there are normal maps.
+struct Bend {
+  Vec3 normal;  ///< zero: the face's
+  Vec3 face;
+  glm::vec4 tangent;
+  Vec2 place;
+};
+static_assert(sizeof(Bend) == 12 * sizeof(float));
+
 GLenum gl_wrap(sconce::Texture::Wrap mode) {
   switch (mode) {
     case sconce::Texture::Wrap::clamp:
@@ -51,18 +60,20 @@ std::vector<float> decode_srgb(const std::vector<unsigned char>& rgba) {
   return out;
 }
 
+/// Where a corner of a triangle is in a texture.
+Vec2 place_in(const TextureUse& use, const World& world, std::size_t triangle, std::size_t k) {
+  const uint32_t v = world.triangles[triangle].v[k];
+  return use.transform(use.texcoord < world.texcoords.size() ? world.texcoords[use.texcoord][v] : Vec2(0));
+}
+
 Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
   const World& world = shown.world;
   const Material& material = shown.scene[world.materials[triangle]];
-  const uint32_t v = world.triangles[triangle].v[k];
-  const auto place = [&](const TextureUse& use) {
-    return use.texcoord < world.texcoords.size() ? use.transform(world.texcoords[use.texcoord][v])
-                                                 : use.transform(Vec2(0));
-  };
+  const auto place = [&](const TextureUse& use) { return place_in(use, world, triangle, k); };
   const auto in_lightmap = [&](const LightmapSide& side) {
     return Vec3(side.uv[k], static_cast<float>(side.page));
   };
-  return {world.positions[v],
+  return {world.positions[world.triangles[triangle].v[k]],
           place(material.base_color_texture),
           place(material.metallic_roughness_texture),
           place(material.emission_texture),
@@ -70,10 +81,37 @@ Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
           in_lightmap(shown.back[triangle])};
 }
 
+Bend bend(const ShownScene& shown, std::size_t triangle, std::size_t k) {
+  const World& world = shown.world;
+  return {world.normals[world.triangles[triangle].v[k]], world.face_normals[triangle],
+          map_tangents(shown.scene, world, triangle)[k],
+          place_in(shown.scene[world.materials[triangle]].normal_texture, world, triangle, k)};
+}
+
+/// Vertex attributes of so many floats each, from `first` on. @return the buffer
+template <class T>
+GLuint upload_attributes(const std::vector<T>& vertices, GLuint layout, GLuint binding, GLuint first,
+                         std::initializer_list<GLint> floats) {
+  GLuint buffer = 0;
+  glCreateBuffers(1, &buffer);
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(vertices.size() * sizeof(T)), vertices.data(), 0);
+  glVertexArrayVertexBuffer(layout, binding, buffer, 0, sizeof(T));
+  GLuint offset = 0;
+  for (const GLint count : floats) {
+    glEnableVertexArrayAttrib(layout, first);
+    glVertexArrayAttribFormat(layout, first, count, GL_FLOAT, GL_FALSE, offset);
+    glVertexArrayAttribBinding(layout, first++, binding);
+    offset += static_cast<GLuint>(count) * sizeof(float);
+  }
+  return buffer;
+}
+
 }  // namespace
 
-Geometry::Geometry(const Context& context, const ShownScene& shown)
-    : shown_(&shown), white_(context, {.format = GL_RGBA8}, "white") {
+Geometry::Geometry(const Context& context, const ShownScene& shown, bool normal_maps)
+    : shown_(&shown),
+      normal_maps_(normal_maps && shown.scene.has_normal_maps()),
+      white_(context, {.format = GL_RGBA8}, "white") {
   const unsigned char white[] = {255, 255, 255, 255};
   white_.upload(GL_RGBA, GL_UNSIGNED_BYTE, white);
   upload_textures(context);
@@ -84,6 +122,7 @@ Geometry::Geometry(const Context& context, const ShownScene& shown)
 Geometry::~Geometry() {
   glDeleteVertexArrays(1, &layout_);
   glDeleteBuffers(1, &vertices_);
+  glDeleteBuffers(1, &normals_);
 }
 
 void Geometry::upload_triangles() {
@@ -99,26 +138,21 @@ void Geometry::upload_triangles() {
            std::tuple(world.materials[b].value, group(b).value);
   });
   std::vector<Vertex> vertices;
+  std::vector<Bend> bends;
   vertices.reserve(3 * order.size());
   for (const uint32_t t : order) {
     if (batches_.empty() || batches_.back().material != world.materials[t] ||
         batches_.back().group != group(t))
       batches_.push_back({world.materials[t], group(t), static_cast<GLint>(vertices.size()), 0});
-    for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
+    for (std::size_t k = 0; k < 3; ++k) {
+      vertices.push_back(vertex(*shown_, t, k));
+      if (normal_maps_) bends.push_back(bend(*shown_, t, k));
+    }
     batches_.back().count += 3;
   }
-  glCreateBuffers(1, &vertices_);
-  glNamedBufferStorage(vertices_, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
-                       0);
   glCreateVertexArrays(1, &layout_);
-  glVertexArrayVertexBuffer(layout_, 0, vertices_, 0, sizeof(Vertex));
-  GLuint attribute = 0, offset = 0;
-  for (const GLint floats : {3, 2, 2, 2, 3, 3}) {
-    glEnableVertexArrayAttrib(layout_, attribute);
-    glVertexArrayAttribFormat(layout_, attribute, floats, GL_FLOAT, GL_FALSE, offset);
-    glVertexArrayAttribBinding(layout_, attribute++, 0);
-    offset += static_cast<GLuint>(floats) * sizeof(float);
-  }
+  vertices_ = upload_attributes(vertices, layout_, 0, 0, {3, 2, 2, 2, 3, 3});
+  if (normal_maps_) normals_ = upload_attributes(bends, layout_, 1, 6, {3, 3, 4, 2});
 }
 
 void Geometry::upload_textures(const Context& context) {
@@ -148,6 +182,7 @@ void Geometry::upload_textures(const Context& context) {
     add(material.base_color_texture, true);
     add(material.metallic_roughness_texture, false);
     if (material.emits()) add(material.emission_texture, true);
+    if (normal_maps_) add(material.normal_texture, false);
   }
 }
 
@@ -161,11 +196,15 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
   surface.set("base_map", 0);
   surface.set("metallic_map", 1);
   surface.set("emission_map", 2);
+  surface.set("normal_map", 3);
   for (const Batch& batch : batches_) {
     const Material& m = shown_->scene[batch.material];
     bind(m.base_color_texture, true, 0);
     bind(m.metallic_roughness_texture, false, 1);
     bind(m.emission_texture, true, 2);
+    bind(m.normal_texture, false, 3);
+    surface.set("has_normal_map", normal_maps_ && m.normal_texture.texture ? 1 : 0);
+    surface.set("normal_scale", m.normal_scale);
     surface.set("base_color", m.base_color);
     surface.set("alpha", m.alpha);
     surface.set("alpha_cutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f);

@@ -11,14 +11,15 @@
 
 namespace sconce::gpu {
 
-/// Every triangle has vertices of its own, for both sides' places in the lightmap: 60 bytes a vertex.
+/// Every triangle has vertices of its own, for both sides' places in the lightmap: 60 bytes a vertex, and 48
+/// more for normal maps.
 class Geometry {
  public:
-  /// Texture units that draw() uses: base colour, metallic, emission.
-  static constexpr int kUnits = 3;
+  /// Texture units that draw() uses: base colour, metallic, emission, normals.
+  static constexpr int kUnits = 4;
 
   /// @param shown  must outlive it
-  Geometry(const Context& context, const ShownScene& shown);
+  Geometry(const Context& context, const ShownScene& shown, bool normal_maps);
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
@@ -43,10 +44,11 @@ class Geometry {
   void bind(const TextureUse& use, bool srgb, int unit) const;
 
   const ShownScene* shown_;
+  bool normal_maps_;
   std::vector<Batch> batches_;
   std::map<Use, Texture> textures_;
   Texture white_;
-  GLuint vertices_ = 0, layout_ = 0;
+  GLuint vertices_ = 0, normals_ = 0, layout_ = 0;
 };
 
 }  // namespace sconce::gpu

@@ -78,7 +78,8 @@ void upload_plane(const Texture& to, const EncodedImage& image, int plane, int l
 
 LayerPass::LayerPass(const Context& context, const EncodedLayers& layers, const ShaderTier& tier,
                      ShaderSpec::Form form, const std::vector<std::size_t>& which)
-    : shader_(compose(spec_of(context, layers, tier, form, which))) {
+    : shader_(compose(spec_of(context, layers, tier, form, which))),
+      coefficient_(layers.textures[which.front()].coefficient) {
   for (const std::size_t t : which)
     for (const std::size_t g : layers.textures[t].groups) {
       groups_.push_back(g);
@@ -132,21 +133,31 @@ void LayerPass::bind(const Program& program, int first_unit, const std::vector<R
   program.set("sconce_weight", own);
 }
 
-std::vector<LayerPass> make_passes(const Context& context, const EncodedLayers& layers,
-                                   const ShaderTier& tier, ShaderSpec::Form form) {
-  std::vector<LayerPass> passes;
+std::vector<std::vector<std::size_t>> split_layers(const Context& context, const EncodedLayers& layers,
+                                                   const ShaderTier& tier, ShaderSpec::Form form) {
+  std::vector<std::vector<std::size_t>> parts;
   std::vector<std::size_t> part;
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
+    const bool apart = form != ShaderSpec::Form::functions && !part.empty() &&
+                       layers.textures[part.back()].coefficient != layers.textures[t].coefficient;
     part.push_back(t);
-    if (fits(context, spec_of(context, layers, tier, form, part))) continue;
+    if (!apart && fits(context, spec_of(context, layers, tier, form, part))) continue;
     part.pop_back();
     if (part.empty())
       throw Error("OpenGL",
                   "a lightmap of " + std::to_string(layers.pages()) + " pages does not fit this device");
-    passes.emplace_back(context, layers, tier, form, part);
+    parts.push_back(part);
     part = {t};
   }
-  passes.emplace_back(context, layers, tier, form, part);
+  parts.push_back(part);
+  return parts;
+}
+
+std::vector<LayerPass> make_passes(const Context& context, const EncodedLayers& layers,
+                                   const ShaderTier& tier, ShaderSpec::Form form) {
+  std::vector<LayerPass> passes;
+  for (const std::vector<std::size_t>& part : split_layers(context, layers, tier, form))
+    passes.emplace_back(context, layers, tier, form, part);
   return passes;
 }
 

@@ -21,29 +21,44 @@ MixedPages::MixedPages(const Context& context, const std::vector<Image>& pages)
   context.check("uploading the lightmap");
 }
 
-std::string lightmap_glsl(bool filter) {
-  const std::string head = "uniform sampler2DArray lightmap;\nuniform float lightmap_scale;\n\n";
-  if (filter)
-    return head + R"(vec3 illuminance(vec2 uv, int page) {
-  return lightmap_scale * texture(lightmap, vec3(uv, float(page))).rgb;
+std::string lightmap_glsl(bool filter, int pages, std::size_t coefficients) {
+  std::string text = "uniform sampler2DArray lightmap;\nuniform float lightmap_scale;\n\n";
+  text += filter ? R"(vec3 lightmap_slice(vec2 uv, int slice) {
+  return lightmap_scale * texture(lightmap, vec3(uv, float(slice))).rgb;
 }
-)";
-  return head + R"(vec3 illuminance(vec2 uv, int page) {
+)"
+                 : R"(vec3 lightmap_slice(vec2 uv, int slice) {
   ivec2 last = textureSize(lightmap, 0).xy - 1;
   vec2 at = clamp(uv * vec2(last + 1) - 0.5, vec2(0.0), vec2(last));
   ivec2 low = ivec2(at), high = min(low + 1, last);
   vec2 part = at - vec2(low);
-  vec3 top = mix(texelFetch(lightmap, ivec3(low, page), 0).rgb,
-                 texelFetch(lightmap, ivec3(high.x, low.y, page), 0).rgb, part.x);
-  vec3 bottom = mix(texelFetch(lightmap, ivec3(low.x, high.y, page), 0).rgb,
-                    texelFetch(lightmap, ivec3(high, page), 0).rgb, part.x);
+  vec3 top = mix(texelFetch(lightmap, ivec3(low, slice), 0).rgb,
+                 texelFetch(lightmap, ivec3(high.x, low.y, slice), 0).rgb, part.x);
+  vec3 bottom = mix(texelFetch(lightmap, ivec3(low.x, high.y, slice), 0).rgb,
+                    texelFetch(lightmap, ivec3(high, slice), 0).rgb, part.x);
   return lightmap_scale * mix(top, bottom, part.y);
+}
+)";
+  if (coefficients == 1)
+    return text + R"(
+vec3 illuminance(vec2 uv, int page, vec3 offset) {
+  return lightmap_slice(uv, page);
+}
+)";
+  return text + "const int kPages = " + std::to_string(pages) + R"(;
+
+vec3 illuminance(vec2 uv, int page, vec3 offset) {
+  vec3 e = lightmap_slice(uv, page);
+  if (offset == vec3(0.0)) return e;
+  for (int axis = 0; axis < 3; ++axis)
+    e += offset[axis] * lightmap_slice(uv, page + (axis + 1) * kPages);
+  return max(e, vec3(0.0));
 }
 )";
 }
 
 std::string MixedPages::glsl() const {
-  return lightmap_glsl(true);
+  return lightmap_glsl(true, texture_.params().layers, 1);
 }
 
 void MixedPages::bind(const Program& program, int first_unit) const {

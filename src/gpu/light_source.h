@@ -14,15 +14,18 @@ namespace sconce::gpu {
 class LightSource {
  public:
   virtual ~LightSource() = default;
-  /// Declares what it reads and defines vec3 illuminance(vec2 uv, int page): mixed light in lux, bilinear.
+  /// Declares what it reads and defines vec3 illuminance(vec2 uv, int page, vec3 offset): mixed light in lux,
+  /// bilinear. offset: a mapped normal minus the surface's, world space; of no matter where the light's
+  /// directions are not known.
   virtual std::string glsl() const = 0;
   /// @param first_unit  texture units from here on are its own
   virtual void bind(const Program& program, int first_unit) const = 0;
 };
 
-/// illuminance() by `uniform sampler2DArray lightmap` of mixed pages, times `uniform float lightmap_scale`.
+/// illuminance() by `uniform sampler2DArray lightmap` of mixed pages, times `uniform float lightmap_scale`:
+/// all pages of E, then, of a basis with more coefficients, those of the next ones.
 /// @param filter  by the texture unit, or in the shader
-std::string lightmap_glsl(bool filter);
+std::string lightmap_glsl(bool filter, int pages, std::size_t coefficients);
 
 /// Pages that are mixed already.
 class MixedPages : public LightSource {

@@ -14,7 +14,9 @@ namespace sconce::gpu {
 /// Every look-up mixes all layers. Nothing to do when faders move; needs all layers in one shader.
 class PixelMix : public LightSource {
  public:
-  /// @throws Error where one shader cannot read all of them
+  /// Can one shader read all of them?
+  static bool possible(const Context& context, const EncodedLayers& layers, const ShaderTier& tier);
+  /// @throws Error where it is not possible
   PixelMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier);
 
   void set(const std::vector<Rgb>& weights) { weights_ = weights; }
@@ -23,10 +25,12 @@ class PixelMix : public LightSource {
 
  private:
   std::vector<LayerPass> passes_;
+  std::size_t coefficients_;
   std::vector<Rgb> weights_;
 };
 
-/// Mixes to a float page, from any number of layers; look-ups then cost the same for any number.
+/// Mixes to float pages, one per coefficient of the basis, from any number of layers; look-ups then cost the
+/// same for any number.
 class AtlasMix : public LightSource {
  public:
   enum class Form : uint8_t { fragment, compute };
@@ -39,22 +43,25 @@ class AtlasMix : public LightSource {
   /// All pages. On the device it is done when that comes to it.
   void mix(const std::vector<Rgb>& weights) const;
   std::size_t passes() const { return passes_.size(); }
-  /// RGB lux, for tests.
+  /// RGB lux: all pages of the first coefficient, then those of the next. For tests.
   std::vector<Image> read() const;
   std::string glsl() const override;
   void bind(const Program& program, int first_unit) const override;
 
  private:
-  void draw_page(int page, const std::vector<Rgb>& weights) const;
-  void compute_page(int page, const std::vector<Rgb>& weights) const;
+  int page(int slice) const { return slice % page_count_; }
+  std::size_t coefficient(int slice) const { return static_cast<std::size_t>(slice / page_count_); }
+  void draw_slice(int slice, const std::vector<Rgb>& weights) const;
+  void compute_slice(int slice, const std::vector<Rgb>& weights) const;
 
   const Context* context_;
   const ShaderTier* tier_;
   Form form_;
   std::vector<LayerPass> passes_;
   std::vector<std::unique_ptr<Program>> programs_;  ///< per pass
-  Texture pages_;
-  float scale_;  ///< stored is this times lux
+  int page_count_;
+  Texture pages_;  ///< a slice per coefficient and page
+  float scale_;    ///< stored is this times lux
   GLuint nothing_ = 0;
 };
 

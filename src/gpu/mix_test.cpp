@@ -52,10 +52,11 @@ class Mixing : public GlTest {
   /// The light source at places between texel centres of all pages.
   Image look(const LightSource& light, int page) const {
     constexpr int kScale = 3;
-    const Program program("look", whole_target_vertex(),
-                          "#version 450 core\n" + light.glsl() +
-                              "uniform int page;\nuniform vec2 size;\nout vec4 color;\nvoid main() {\n"
-                              "  color = vec4(illuminance(gl_FragCoord.xy / size, page), 1.0);\n}\n");
+    const Program program(
+        "look", whole_target_vertex(),
+        "#version 450 core\n" + light.glsl() +
+            "uniform int page;\nuniform vec2 size;\nuniform vec3 offset;\nout vec4 color;\nvoid main() {\n"
+            "  color = vec4(illuminance(gl_FragCoord.xy / size, page, offset), 1.0);\n}\n");
     const Texture out(context_, {.width = kScale * kWidth, .height = kScale * kHeight}, "look");
     const Framebuffer target(out, 0);
     light.bind(program, 1);

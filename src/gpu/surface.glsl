@@ -1,23 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 // Twin of View::look and shade(): what is seen of a surface. The main() of a fragment shader, after a light
-// source's vec3 illuminance(vec2 uv, int page) in lux.
+// source's vec3 illuminance(vec2 uv, int page, vec3 offset) in lux.
 
-uniform sampler2D base_map, metallic_map, emission_map;
+uniform sampler2D base_map, metallic_map, emission_map, normal_map;
 uniform vec3 base_color, emission, weight;
 uniform float alpha, alpha_cutoff, metallic;
-uniform bool double_sided;
+uniform bool double_sided, has_normal_map;
+uniform float normal_scale;
 
 in vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
+in vec2 normal_uv;
+in vec3 normal;  // zero: the face's
+in vec4 tangent;
+flat in vec3 face_normal;
 flat in int front_page, back_page;
 
 out vec4 seen;  // cd/m2; 1 where it is an emitter
+
+// Twin of scene/normal_map.cpp.
+vec3 normal_offset() {
+  if (!has_normal_map) return vec3(0.0);
+  vec3 n = normal == vec3(0.0) ? face_normal : normalize(normal);
+  if (dot(n, face_normal) < 0.0) n = -n;
+  vec3 along = tangent.xyz - n * dot(n, tangent.xyz);
+  if (along == vec3(0.0)) return vec3(0.0);
+  vec3 t = normalize(along), up = cross(n, t) * (tangent.w < 0.0 ? -1.0 : 1.0);
+  vec3 at = 2.0 * texture(normal_map, normal_uv).rgb - 1.0;
+  vec3 mapped = normal_scale * (at.x * t + at.y * up) + at.z * n;
+  return mapped == vec3(0.0) ? vec3(0.0) : normalize(mapped) - n;
+}
 
 void main() {
   vec4 base = texture(base_map, base_uv) * vec4(base_color, alpha);
   if (base.a < alpha_cutoff) discard;
   vec3 albedo = base.rgb * (1.0 - metallic * texture(metallic_map, metallic_uv).b);
   int page = gl_FrontFacing ? front_page : back_page;
-  vec3 light = page < 0 ? vec3(0.0) : illuminance(gl_FrontFacing ? front_uv : back_uv, page);
+  vec3 offset = gl_FrontFacing ? normal_offset() : -normal_offset();
+  vec3 light = page < 0 ? vec3(0.0) : illuminance(gl_FrontFacing ? front_uv : back_uv, page, offset);
   vec3 shines = emission * texture(emission_map, emission_uv).rgb;
   if (!gl_FrontFacing && !double_sided) shines = vec3(0.0);
   seen = vec4(albedo * light * 0.318309886 + weight * shines, any(notEqual(shines, vec3(0.0))) ? 1.0 : 0.0);

@@ -9,7 +9,7 @@ EncodedLayers for_tier(EncodedLayers layers, const ShaderTier& tier) {
   if (layers.textures.empty() || layers.pages() == 0) throw Error("OpenGL", "there are no layers to mix");
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
     LayerTexture& texture = layers.textures[t];
-    const EncodingChoice wanted = tier_encoding(tier, texture.encoding);
+    const EncodingChoice wanted = tier_encoding(tier, texture.encoding, texture.coefficient > 0);
     if (wanted == texture.encoding) continue;
     texture.encoding = wanted;
     texture.gain.clear();

@@ -54,10 +54,10 @@ struct View::Targets {
   Framebuffer pass, total;
 };
 
-View::View(const Context& context, const ShownScene& shown)
+View::View(const Context& context, const ShownScene& shown, bool normal_maps)
     : context_(&context),
       shown_(&shown),
-      geometry_(context, shown),
+      geometry_(context, shown, normal_maps),
       sky_("sky", whole_target_vertex(), kSky),
       add_("sum of passes", whole_target_vertex(), kAdd) {
   glCreateVertexArrays(1, &nothing_);

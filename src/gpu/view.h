@@ -19,7 +19,8 @@ namespace sconce::gpu {
 class View {
  public:
   /// @param context, shown  must outlive it
-  View(const Context& context, const ShownScene& shown);
+  /// @param normal_maps     are seen, by light sources that know directions; cost memory
+  View(const Context& context, const ShownScene& shown, bool normal_maps = false);
   ~View();
 
   /// Draws; then linear(), coverage() and toned() tell what is seen. Equal to View::render of the CPU but for

@@ -45,8 +45,7 @@ std::unique_ptr<LightSource> choose_mix(const Context& context, View& view, cons
   std::unique_ptr<PixelMix> pixel;
   std::unique_ptr<AtlasMix> atlas;
   if (tier.f16) atlas = std::make_unique<AtlasMix>(context, layers, tier);
-  const bool one_shader = atlas == nullptr || atlas->passes() == 1;
-  if (atlas == nullptr || (one_shader && params.samples >= kManySamples)) {
+  if (atlas == nullptr || (params.samples >= kManySamples && PixelMix::possible(context, layers, tier))) {
     pixel = std::make_unique<PixelMix>(context, layers, tier);
     pixel->set(weights);
   }

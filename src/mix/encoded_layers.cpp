@@ -24,9 +24,10 @@ std::size_t EncodedLayers::bytes() const {
   return sum;
 }
 
-EncodedLayers read_layers(const Package& package) {
+EncodedLayers read_layers(const Package& package, std::size_t coefficients) {
   EncodedLayers layers;
-  layers.textures = package.textures();
+  for (std::size_t c = 0; c < coefficients; ++c)
+    for (LayerTexture& texture : package.textures(c)) layers.textures.push_back(std::move(texture));
   const auto pages = static_cast<std::size_t>(package.manifest().pages);
   layers.images.assign(layers.textures.size(), std::vector<EncodedImage>(pages));
   parallel_for(layers.textures.size() * pages, 1, [&](std::size_t i) {

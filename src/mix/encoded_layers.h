@@ -17,12 +17,15 @@ struct EncodedLayers {
   int width() const { return images.front().front().width; }
   int height() const { return images.front().front().height; }
   int pages() const { return static_cast<int>(images.front().size()); }
+  /// Of the basis, that there are textures of.
+  std::size_t coefficients() const { return textures.back().coefficient + 1; }
   /// Codes of all pages.
   std::size_t bytes() const;
 };
 
+/// @param coefficients  of the basis: the first alone, or all, one after the other
 /// @throws as Package::encoded
-EncodedLayers read_layers(const Package& package);
+EncodedLayers read_layers(const Package& package, std::size_t coefficients = 1);
 
 /// Layers that are in no package.
 /// @param choices  per group

@@ -59,7 +59,8 @@ const std::vector<Image>& Mixer::mix(const MixSpec& mix) {
 
 void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<std::vector<Rgb>>& weights,
                 bool clear) {
-  constexpr int kTexels = 2048;  // of a band: its sum stays in the nearest cache while textures stream by
+  // Of a band: its sum stays in a core's own cache while textures stream by, each long enough to be foreseen.
+  constexpr int kTexels = 32768;
   bytes_read_ = 0;
   for (const Texture* texture : textures)
     for (const EncodedImage& page : texture->pages) bytes_read_ += page.data.size();
@@ -67,7 +68,7 @@ void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<s
     Image& sum = sum_[page];
     const std::size_t row = 3 * static_cast<std::size_t>(sum.width);
     const int band_rows = std::max(1, kTexels / sum.width);
-    parallel_for(static_cast<std::size_t>((sum.height + band_rows - 1) / band_rows), 16,
+    parallel_for(static_cast<std::size_t>((sum.height + band_rows - 1) / band_rows), 1,
                  [&](std::size_t band) {
                    const int first = static_cast<int>(band) * band_rows,
                              rows = std::min(band_rows, sum.height - first);

@@ -2,6 +2,7 @@
 // All instances made real: one indexed triangle soup in world space, which rays, atlas and lights work on.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/scene.h"
@@ -41,9 +42,12 @@ struct Texel {
 };
 Texel sample_texture(const Scene& scene, const TextureUse& use, Vec2 uv, bool srgb);
 
+/// Per corner of a triangle, what its material's normal map is laid out along: xyz the direction in which the
+/// map's u grows, w < 0 where its up is -cross(normal, xyz). The mesh's tangents; where it has none, from the
+/// map's coordinates.
+std::array<glm::vec4, 3> map_tangents(const Scene& scene, const World& world, std::size_t triangle);
 /// The normal that a material's normal map gives minus World::normal(), on the front; 0 where there is no
-/// map. On the back it is the opposite. Tangents are the mesh's; where it has none, the direction in which
-/// the map's u grows on the triangle.
+/// map. On the back it is the opposite.
 Vec3 normal_offset(const Scene& scene, const World& world, std::size_t triangle, Vec2 barycentric);
 
 /// Material at a point. Base colour after texture; metals keep it as diffuse reflectance in bounces
