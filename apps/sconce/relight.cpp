@@ -176,10 +176,12 @@ int run_relight(int argc, const char* const* argv) {
     std::vector<Id<LightGroup>> left;
     for (const std::string& name : wanted.groups) left.push_back(find_group(package.manifest(), name));
     std::vector<LampMove> shifts;
-    const Lamps own(view.scene(), view.world());
-    for (const Move& move : wanted.moves) {
-      shifts.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
-      left.insert(left.end(), shifts.back().groups.begin(), shifts.back().groups.end());
+    if (!wanted.moves.empty()) {
+      const Lamps own(view.scene(), view.world());
+      for (const Move& move : wanted.moves) {
+        shifts.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
+        left.insert(left.end(), shifts.back().groups.begin(), shifts.back().groups.end());
+      }
     }
     const std::vector<MovedGroup> groups = take_groups(left, lightmap);
     find_view(op, view, picture, progress, relit);

@@ -2,6 +2,7 @@
 #include "host/sconce_transfer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -11,11 +12,10 @@
 using namespace sconce;
 
 struct sconce_transfer {
-  explicit sconce_transfer(const char* path) : op(open_operator(path)), bounces(op), light(op.slots()) {}
+  explicit sconce_transfer(const char* path) : op(open_operator(path)), bounces(op) {}
 
   Operator op;
   FoldedBounces bounces;
-  std::vector<Rgbx> light;
 };
 
 namespace {
@@ -72,22 +72,14 @@ void sconce_transfer_places(const sconce_transfer* transfer, uint32_t* places) {
 
 int sconce_transfer_apply(sconce_transfer* transfer, const float* direct, float* indirect) {
   const Operator& op = transfer->op;
-  bool bad = false;
-  for (std::size_t slot = 0; slot < transfer->light.size(); ++slot) {
-    Rgb sum;
-    for (std::size_t i = slot * op.points_per_slot; i < (slot + 1) * op.points_per_slot; ++i) {
-      const Rgb e(direct[3 * i], direct[3 * i + 1], direct[3 * i + 2]);
-      if (std::isfinite(e.r) && std::isfinite(e.g) && std::isfinite(e.b))
-        sum += unpack_albedo(op.lit[i].albedo) * e;
-      else
-        bad = true;
-    }
-    sum *= 1 / static_cast<float>(op.points_per_slot);
-    transfer->light[slot] = {sum.r, sum.g, sum.b, 0};
-  }
-  transfer->bounces.apply(transfer->light);
+  std::atomic<bool> bad = false;
+  std::vector<Rgbx> light = slot_exitance(op, [&](std::size_t i) {
+    const Rgb e(direct[3 * i], direct[3 * i + 1], direct[3 * i + 2]);
+    if (std::isfinite(e.r) && std::isfinite(e.g) && std::isfinite(e.b)) return e;
+    bad = true;
+    return Rgb();
+  });
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
-  multiply(op.gather, transfer->light, {reinterpret_cast<Rgb*>(indirect), op.gather.rows});
-  for (std::size_t i = 0; i < std::size_t{3} * op.gather.rows; ++i) indirect[i] = std::max(indirect[i], 0.0f);
+  transfer->bounces.indirect(light, {reinterpret_cast<Rgb*>(indirect), op.gather.rows});
   return bad ? 1 : 0;
 }

@@ -25,14 +25,16 @@ std::optional<Vec3> place_of(const Lamp& lamp) {
 Scene with(const Scene& scene, const World& world, const std::vector<Light>& lights,
            std::span<const LampMove> moves) {
   Scene out = scene;
-  const Lamps lamps(scene, world);
-  for (const LampMove& move : moves)
-    for (const std::size_t i : move.lamps) {
-      const auto* mesh = std::get_if<MeshLamp>(&lamps.all()[i].shape);
-      Mat4& frame = mesh != nullptr ? out.instances[world.instances[mesh->first_triangle].value].transform
-                                    : out.lights[i].frame;
-      frame[3] += glm::vec4(move.by, 0);
-    }
+  if (!moves.empty()) {
+    const Lamps lamps(scene, world);
+    for (const LampMove& move : moves)
+      for (const std::size_t i : move.lamps) {
+        const auto* mesh = std::get_if<MeshLamp>(&lamps.all()[i].shape);
+        Mat4& frame = mesh != nullptr ? out.instances[world.instances[mesh->first_triangle].value].transform
+                                      : out.lights[i].frame;
+        frame[3] += glm::vec4(move.by, 0);
+      }
+  }
   out.lights.insert(out.lights.end(), lights.begin(), lights.end());
   return out;
 }
@@ -169,21 +171,13 @@ std::vector<std::string> MovedLamps::buried() const {
 }
 
 std::vector<Rgbx> light_cloud(const Operator& op, const MovedLamps& lamps) {
-  std::vector<Rgbx> exitance(op.slots());
-  const uint32_t points = op.points_per_slot;
-  parallel_for(exitance.size(), 256, [&](std::size_t slot) {
-    Rgb sum;
-    for (uint32_t p = 0; p < points; ++p) {
-      const OperatorPoint& point = op.lit[points * slot + p];
-      const SurfacePoint at{Vec3(point.position[0], point.position[1], point.position[2]),
-                            unpack_normal(point.shading), unpack_normal(point.geometric)};
-      sum += unpack_albedo(point.albedo) *
-             lamps.illuminance(at, mix32(kCloudStream, static_cast<uint32_t>(slot)), p);
-    }
-    sum *= 1 / static_cast<float>(points);
-    exitance[slot] = {sum.r, sum.g, sum.b, 0};
+  return slot_exitance(op, [&](std::size_t i) {
+    const OperatorPoint& point = op.lit[i];
+    const SurfacePoint at{Vec3(point.position[0], point.position[1], point.position[2]),
+                          unpack_normal(point.shading), unpack_normal(point.geometric)};
+    const auto slot = static_cast<uint32_t>(i / op.points_per_slot);
+    return lamps.illuminance(at, mix32(kCloudStream, slot), static_cast<uint32_t>(i % op.points_per_slot));
   });
-  return exitance;
 }
 
 }  // namespace sconce

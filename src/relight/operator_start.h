@@ -3,6 +3,8 @@
 // and receivers.
 #pragma once
 
+#include <atomic>
+
 #include "core/parallel.h"
 #include "relight/cloud_square.h"
 #include "relight/precompute.h"

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <limits>
 
-#include "core/parallel.h"
 #include "core/sobol.h"
 #include "transfer/folded_bounces.h"
 
@@ -12,7 +11,7 @@ namespace sconce {
 
 namespace {
 
-constexpr uint32_t kNone = 0xffffffffu, kSeenStream = 0x7365656eu, kMeterStream = 0x6d657465u;
+constexpr uint32_t kNone = 0xffffffffu, kSeenStream = 0x7365656eu;
 
 SurfacePoint point_of(const OperatorPoint& p) {
   return {Vec3(p.position[0], p.position[1], p.position[2]), unpack_normal(p.shading),
@@ -28,11 +27,8 @@ Relighter::Relighter(const Package& package, const View& view, const Operator& o
   const auto start = Clock::now();
   std::vector<Rgbx> light = light_cloud(op, lamps);
   const auto lit = Clock::now();
-  bounces.apply(light);
   indirect_.resize(op.gather.rows);
-  multiply(op.gather, light, indirect_);
-  // What truncated rows leave below zero is darkness.
-  for (Rgb& e : indirect_) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+  bounces.indirect(light, indirect_);
   seconds_.direct = std::chrono::duration<double>(lit - start).count();
   seconds_.indirect = std::chrono::duration<double>(Clock::now() - lit).count();
   if (op.kind == OperatorReceivers::pixels) {
@@ -57,15 +53,6 @@ void Relighter::add_to(std::vector<Image>& pages) const {
     Image& sum = pages[static_cast<std::size_t>(page)];
     for (std::size_t k = 0; k < own.data.size(); ++k) sum.data[k] += own.data[k];
   }
-}
-
-void Relighter::add_direct_to(std::vector<Image>& pages) const {
-  const std::size_t page_size = static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height);
-  parallel_for(op_.places.size(), 256, [&](std::size_t i) {
-    const Rgb e = lamps_.illuminance(point_of(op_.receivers[i]), mix32(kMeterStream, op_.places[i]), 0);
-    float* texel = &pages[op_.places[i] / page_size].data[3 * (op_.places[i] % page_size)];
-    texel[0] += e.r, texel[1] += e.g, texel[2] += e.b;
-  });
 }
 
 Rgb Relighter::nearest_pixel(const SurfacePoint& at, int x, int y) const {

@@ -16,8 +16,6 @@ class Relighter {
   const std::vector<Rgb>& indirect() const { return indirect_; }
   /// Of texels: adds the indirect light to the pages of a lightmap, gaps filled.
   void add_to(std::vector<Image>& pages) const;
-  /// Of texels: direct light at their middles, for metering alone. Adds to pages.
-  void add_direct_to(std::vector<Image>& pages) const;
   /// What pixels see besides the lightmap: direct light, and indirect light where pixels are the receivers:
   /// of the nearest in place and normal among 3 x 3 (the chapter, 9.8.1).
   AddedLight added() const;

@@ -34,19 +34,24 @@ TransferState::TransferState(const std::filesystem::path& path, const std::strin
     if (!file.starts_with(begin))
       throw Error(path.string(), "belongs to an operator made otherwise", "the same options, or no --resume");
     std::string_view left = std::string_view(file).substr(begin.size());
-    // What an interruption cut off is made again.
+    std::size_t whole = begin.size();
     while (left.size() >= sizeof(RecordHead)) {
       RecordHead record{};
       take_span(left, std::span(&record, 1));
       if (record.bytes > left.size() || XXH3_64bits(left.data(), record.bytes) != record.checksum) break;
       records_[record.cluster] = left.substr(0, record.bytes);
       left.remove_prefix(record.bytes);
+      whole += sizeof record + record.bytes;
     }
+    // What an interruption cut off is made again; what stands stays on disk meanwhile.
+    std::filesystem::resize_file(path, whole, ec);
+    file_.reset(std::fopen(path.c_str(), "ab"));
+    if (ec || !file_) throw Error(path.string(), "cannot be written");
+    return;
   }
   file_.reset(std::fopen(path.c_str(), "wb"));
   if (!file_ || std::fwrite(begin.data(), begin.size(), 1, file_.get()) != 1)
     throw Error(path.string(), "cannot be written");
-  for (const auto& [cluster, bytes] : records_) put(cluster, bytes);
 }
 
 std::string_view TransferState::find(std::size_t cluster) const {

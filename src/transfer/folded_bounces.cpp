@@ -45,7 +45,8 @@ FoldedBounces::FoldedBounces(const Operator& op) : op_(op), rank_(ClusterRows::k
 
 void FoldedBounces::apply(std::span<Rgbx> exitance) const {
   // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
-  std::vector<Rgbx> once = first_bounce(op_, exitance), sum = once;
+  haar_forward(exitance);
+  std::vector<Rgbx> once = reflected_once(op_, exitance), sum = once;
   haar_forward(once);
   std::vector<Rgb> seen(rank_), all(rank_);
   multiply(op_.bounce.basis, once, seen);
@@ -66,6 +67,12 @@ void FoldedBounces::apply(std::span<Rgbx> exitance) const {
     }
   }
   add_reflected(exitance, sum);
+}
+
+void FoldedBounces::indirect(std::span<Rgbx> exitance, std::span<Rgb> out) const {
+  apply(exitance);
+  multiply(op_.gather, exitance, out);
+  for (Rgb& e : out) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
 }
 
 }  // namespace sconce

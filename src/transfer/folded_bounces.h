@@ -16,6 +16,9 @@ class FoldedBounces {
 
   /// As bounce_light(): b_d becomes the wavelet coefficients of (M + I) b_d. In place.
   void apply(std::span<Rgbx> exitance) const;
+  /// Illuminance by light that was reflected at least once, lux; per receiver. What truncated rows leave
+  /// below zero is darkness.
+  void indirect(std::span<Rgbx> exitance, std::span<Rgb> out) const;
 
  private:
   const Operator& op_;

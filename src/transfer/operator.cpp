@@ -77,18 +77,26 @@ uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, 
   return kMost;
 }
 
-namespace {
+std::vector<Rgbx> slot_exitance(const Operator& op, const std::function<Rgb(std::size_t)>& direct) {
+  std::vector<Rgbx> exitance(op.slots());
+  const std::size_t points = op.points_per_slot;
+  parallel_for(exitance.size(), 256, [&](std::size_t slot) {
+    Rgb sum;
+    for (std::size_t i = points * slot; i < points * (slot + 1); ++i)
+      sum += unpack_albedo(op.lit[i].albedo) * direct(i);
+    sum *= 1 / static_cast<float>(points);
+    exitance[slot] = {sum.r, sum.g, sum.b, 0};
+  });
+  return exitance;
+}
 
-/// @param light  transformed
-std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> light) {
+std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> coefficients) {
   std::vector<Rgb> illuminance(op.first.rows);
-  multiply(op.first, light, illuminance);
+  multiply(op.first, coefficients, illuminance);
   std::vector<Rgbx> out(op.first.rows);
   reflect(illuminance, op.albedo, out);
   return out;
 }
-
-}  // namespace
 
 std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitance) {
   std::vector<Rgbx> light(exitance.begin(), exitance.end());
@@ -96,22 +104,12 @@ std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitanc
   return reflected_once(op, light);
 }
 
-namespace {
-
-/// Adds light of nodes to the coefficients of light per slot. The transform of a square whose blocks are all
-/// even is that of the blocks, times their side.
-void add_transformed(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes) {
+void add_reflected(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes) {
+  // The transform of a square whose blocks are all even is that of the blocks, times their side.
   haar_forward(nodes);
   const float side = std::sqrt(static_cast<float>(coefficients.size() / nodes.size()));
   for (std::size_t k = 0; k < nodes.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) coefficients[k][c] += side * nodes[k][c];
-}
-
-}  // namespace
-
-void add_reflected(std::span<Rgbx> exitance, std::vector<Rgbx>& nodes) {
-  haar_forward(exitance);
-  add_transformed(exitance, nodes);
 }
 
 void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
@@ -127,7 +125,7 @@ void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[k][c] += light[k][c];
   }
-  add_transformed(exitance, sum);
+  add_reflected(exitance, sum);
 }
 
 std::vector<Rgb> indirect_light(const Operator& op, std::vector<Rgbx>& exitance) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "core/vec.h"
@@ -54,6 +55,10 @@ struct Operator {
   uint64_t bytes() const { return gather.bytes() + first.bytes() + bounce.bytes(); }
 };
 
+/// b_d per slot: the mean of albedo x direct illuminance over its points, lm/m2.
+/// @param direct  lux at `lit[i]`; thread-safe
+std::vector<Rgbx> slot_exitance(const Operator& op, const std::function<Rgb(std::size_t i)>& direct);
+
 /// E_i = F (M + I) b_d: multiply() after all bounces, M = rho K + rho K rho K + ... by sweeps of scalar K and
 /// RGB rho. Linear in its input to float rounding.
 /// @param exitance  b_d = albedo x direct illuminance, mean over the slot's points, lm/m2; per slot. Changed
@@ -68,9 +73,10 @@ std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitanc
 /// `albedo`.
 void bounce_light(const Operator& op, std::span<Rgbx> exitance);
 
-/// Makes wavelet coefficients of b_d and adds light that was reflected, per node.
-/// @param nodes  changed
-void add_reflected(std::span<Rgbx> exitance, std::vector<Rgbx>& nodes);
+/// The parts of it, on wavelet coefficients of b_d: light after its first reflection, per node; and adding
+/// light of nodes. @param nodes  changed
+std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> coefficients);
+void add_reflected(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes);
 
 /// Sweeps after which all light still to come is less than `tolerance` of what started, were it even. A
 /// property of the operator alone, so that its answer is linear.
