@@ -50,10 +50,6 @@ bool coded(const std::string& file) {
   return type != ".exr" && type != ".hdr" && type != ".pic";
 }
 
-float srgb_code(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 /// Between pixel centres; held at the border.
 double bilinear(const Image& image, double x, double y) {
   const double fx = std::clamp(x - 0.5, 0.0, image.width - 1.0),
@@ -157,9 +153,10 @@ Image Acquired::merged(const std::string& pattern, int m, int n) const {
       if (codes) {
         // read_image() took them for sRGB; the code itself is what a camera's response is about.
         const auto decode = [&](float v) {
-          return acquisition_.gamma > 0 ? std::pow(srgb_code(v), static_cast<float>(acquisition_.gamma)) : v;
+          return acquisition_.gamma > 0 ? std::pow(linear_to_srgb(v), static_cast<float>(acquisition_.gamma))
+                                        : v;
         };
-        most = srgb_code(most);
+        most = linear_to_srgb(most);
         value = Rgb(decode(value.r), decode(value.g), decode(value.b));
       }
       if (!(most < top) || !std::isfinite(value.r + value.g + value.b)) continue;  // saturated

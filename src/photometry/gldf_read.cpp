@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "photometry/formats.h"
+#include "photometry/lines.h"
 
 namespace sconce {
 
@@ -78,9 +79,7 @@ class Reader {
 
  private:
   std::string place(std::ptrdiff_t offset) const {
-    const auto end =
-        text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return fmt::format("{}/product.xml:{}", zip_.where(), 1 + std::count(text_.begin(), end, '\n'));
+    return fmt::format("{}/product.xml:{}", zip_.where(), line_of(text_, offset));
   }
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what,
                          const std::string& allowed = {}) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photometry/lines.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -28,6 +29,11 @@ std::vector<std::string> lines_of(std::string_view text) {
     text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
   }
   return out;
+}
+
+std::ptrdiff_t line_of(std::string_view text, std::ptrdiff_t offset) {
+  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
+  return 1 + std::count(text.begin(), end, '\n');
 }
 
 bool Numbers::find() {

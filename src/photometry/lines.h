@@ -2,6 +2,7 @@
 // Text in lines, and numbers one after the other whatever their lines: how photometric files are laid out.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,9 @@ namespace sconce {
 
 /// Lines without their ends (LF, CR LF or CR) and without a byte order mark.
 std::vector<std::string> lines_of(std::string_view text);
+
+/// Line of a byte of a text, from 1 on.
+std::ptrdiff_t line_of(std::string_view text, std::ptrdiff_t offset);
 
 /// Numbers of all lines from `line` on, separated by blanks or commas; `//` starts a comment.
 class Numbers {

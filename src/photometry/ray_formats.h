@@ -53,6 +53,9 @@ struct RayLayout {
 /// @throws NotMyFormat, Error
 RayLayout ray_layout(std::ifstream& in, uint64_t size, const std::string& where);
 
+/// Metres of Zemax' unit codes, binary and text. @throws Error for others
+double zemax_unit(double code, const std::string& where);
+
 /// LightTools' and Zemax' texts. @throws NotMyFormat, Error naming file:line
 RayFile read_text_rays(std::ifstream& in, uint64_t size, const std::string& where, const RaySink& sink,
                        const Progress& progress);

@@ -102,14 +102,12 @@ RayLayout light_tools(const Bytes& head, uint64_t size, const std::string& where
 
 /// Zemax: 208 bytes, rays; format 0 has a flux, format 2 a wavelength after it.
 RayLayout zemax(const Bytes& head, const std::string& where) {
-  constexpr double kUnits[] = {1, 0.0254, 0.01, 0.3048, kMillimetre};
   RayLayout out;
   const int units = head.at<int32_t>(136), format = head.at<int32_t>(192), kind = head.at<int32_t>(196);
-  if (units < 0 || units > 4) throw Error(where, fmt::format("has the unit code {}", units), "0 to 4");
+  out.unit = zemax_unit(units, where);
   if (format != 0 && format != 2) throw Error(where, fmt::format("is Zemax ray format {}", format), "0, 2");
   out.file = {"Zemax", head.at<uint32_t>(4), kind == 1, static_cast<double>(head.at<float>(112))};
   out.numbers = format == 2 ? 8 : 7;
-  out.unit = kUnits[units];
   out.offset = 208;
   return out;
 }
@@ -146,6 +144,12 @@ std::optional<RayLayout> speos(const Bytes& head, uint64_t size) {
 }
 
 }  // namespace
+
+double zemax_unit(double code, const std::string& where) {
+  constexpr double kUnits[] = {1, 0.0254, 0.01, 0.3048, kMillimetre};
+  if (!(code >= 0 && code <= 4)) throw Error(where, fmt::format("has the unit code {}", code), "0 to 4");
+  return kUnits[static_cast<int>(code)];
+}
 
 RayLayout ray_layout(std::ifstream& in, uint64_t size, const std::string& where) {
   constexpr int kZemax = 1010,

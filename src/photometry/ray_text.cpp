@@ -103,10 +103,7 @@ class Reader {
 
   /// How many rays and the code of their unit, then a line a ray.
   RayFile zemax(uint64_t count, double unit) {
-    // As in the binary header.
-    constexpr double kUnits[] = {1, 0.0254, 0.01, 0.3048, 1e-3};
-    if (!(unit >= 0 && unit <= 4)) fail(fmt::format("has the unit code {}", unit), "0 to 4");
-    RayBlocks blocks(sink_, where_, kUnits[static_cast<int>(unit)]);
+    RayBlocks blocks(sink_, where_, zemax_unit(unit, fmt::format("{}:{}", where_, at_)));
     while (next())
       if (!trim(line_).empty()) ray(blocks);
     if (blocks.rays() != count)

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "photometry/circle.h"
 #include "photometry/formats.h"
+#include "photometry/lines.h"
 
 namespace sconce {
 
@@ -45,13 +46,10 @@ class Reader {
   }
 
  private:
-  std::ptrdiff_t line_of(std::ptrdiff_t offset) const {
-    const auto end =
-        text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return 1 + std::count(text_.begin(), end, '\n');
-  }
   /// "lamp.xml:12" of a byte of the file.
-  std::string place(std::ptrdiff_t offset) const { return fmt::format("{}:{}", where_, line_of(offset)); }
+  std::string place(std::ptrdiff_t offset) const {
+    return fmt::format("{}:{}", where_, line_of(text_, offset));
+  }
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what,
                          const std::string& allowed = {}) const {
     throw Error(place(node.offset_debug()), what, allowed);
@@ -121,7 +119,7 @@ class Reader {
                        length, width, height));
   }
   void note(const pugi::xml_node& node, const std::string& what) {
-    out_.notes.push_back(fmt::format("line {}: {}", line_of(node.offset_debug()), what));
+    out_.notes.push_back(fmt::format("line {}: {}", line_of(text_, node.offset_debug()), what));
   }
 
   void read_intensity(const pugi::xml_node& data) {
