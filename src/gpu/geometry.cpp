@@ -81,11 +81,13 @@ Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
           in_lightmap(shown.back[triangle])};
 }
 
-Bend bend(const ShownScene& shown, std::size_t triangle, std::size_t k) {
+void add_bends(const ShownScene& shown, std::size_t triangle, std::vector<Bend>& out) {
   const World& world = shown.world;
-  return {world.normals[world.triangles[triangle].v[k]], world.face_normals[triangle],
-          map_tangents(shown.scene, world, triangle)[k],
-          place_in(shown.scene[world.materials[triangle]].normal_texture, world, triangle, k)};
+  const TextureUse& map = shown.scene[world.materials[triangle]].normal_texture;
+  const std::array<glm::vec4, 3> tangents = map_tangents(shown.scene, world, triangle);
+  for (std::size_t k = 0; k < 3; ++k)
+    out.push_back({world.normals[world.triangles[triangle].v[k]], world.face_normals[triangle], tangents[k],
+                   place_in(map, world, triangle, k)});
 }
 
 /// Vertex attributes of so many floats each, from `first` on. @return the buffer
@@ -144,10 +146,8 @@ void Geometry::upload_triangles() {
     if (batches_.empty() || batches_.back().material != world.materials[t] ||
         batches_.back().group != group(t))
       batches_.push_back({world.materials[t], group(t), static_cast<GLint>(vertices.size()), 0});
-    for (std::size_t k = 0; k < 3; ++k) {
-      vertices.push_back(vertex(*shown_, t, k));
-      if (normal_maps_) bends.push_back(bend(*shown_, t, k));
-    }
+    for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
+    if (normal_maps_) add_bends(*shown_, t, bends);
     batches_.back().count += 3;
   }
   glCreateVertexArrays(1, &layout_);

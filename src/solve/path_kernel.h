@@ -159,7 +159,8 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
   const auto batch = [&](int b) {
     return std::span(sums).subspan(static_cast<std::size_t>(b) * 3 * values, 3 * values);
   };
-  const auto sample = [&](uint32_t stream, uint32_t index, std::span<double> into) {
+  const uint32_t stream = mix32(params.seed, receiver.id);
+  const auto sample = [&](uint32_t index, std::span<double> into) {
     if (params.basis == Basis::flat)
       kernel.sample(receiver, stream, index, FlatSums{into});
     else
@@ -171,7 +172,7 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
     for (int b = 0; b < kBatches; ++b) {
       // Batches are neighbouring parts of one sequence: each is a net, and so are all together.
       const uint32_t part = round - done, first = kBatches * done + static_cast<uint32_t>(b) * part;
-      for (uint32_t i = 0; i < part; ++i) sample(mix32(params.seed, receiver.id), first + i, batch(b));
+      for (uint32_t i = 0; i < part; ++i) sample(first + i, batch(b));
     }
     done = round;
     double mean_total = 0, squares_total = 0;
