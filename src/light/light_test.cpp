@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sobol.h"
+#include "light/spherical_triangle.h"
 #include "light/test_rig.h"
 #include "scene/shapes.h"
 
@@ -75,6 +76,53 @@ TEST(Lamps, FluxOfSpots) {
     }
     EXPECT_NEAR(static_cast<double>(rig.lamps.all()[lamp].flux.g) / sum, 1, 0.01) << lamp;
   }
+}
+
+// An octant of the sphere: a right angle's solid angle, and the mean of uniform directions, 1/2 on each axis.
+// A sliver, seen from a thousand times its width: its area over the distance squared.
+TEST(SphericalTriangle, SolidAngleAndUniformDirections) {
+  const SphericalTriangle octant(Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 1));
+  EXPECT_NEAR(octant.solid_angle(), kPiD / 2, 1e-6);
+  const uint32_t n = 1 << 14;
+  glm::dvec3 mean(0), squares(0);
+  for (uint32_t i = 0; i < n; ++i) {
+    const glm::dvec3 d(octant.sample(sobol_pair(i, 0, 3)));
+    EXPECT_NEAR(glm::length(d), 1, 1e-5);
+    EXPECT_GE(std::min({d.x, d.y, d.z}), -1e-5);
+    mean += d / double{n}, squares += d * d / double{n};
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(mean[axis], 0.5, 1e-3) << axis;
+    EXPECT_NEAR(squares[axis], 1 / 3.0, 1e-3) << axis;
+  }
+  const Vec3 far(0, 0, 10);
+  const SphericalTriangle sliver(far, far + Vec3(1, 0, 0), far + Vec3(0, 0.01f, 0));
+  EXPECT_NEAR(sliver.solid_angle() / (0.005 / 100), 1, 0.02);
+}
+
+// A lamp of two triangles close by: the mean of 1/pdf over samples is the solid angle of the square, and
+// pdf() says the same of what a ray hits.
+TEST(Lamps, NearSquareIsSampledBySolidAngle) {
+  Scene scene = with_floor();
+  add_quad(scene, "panel", add_material(scene, "glow", Rgb(0), Rgb(10)), Vec3(-1, 1, -1), Vec3(2, 0, 0),
+           Vec3(0, 0, 2));
+  const Rig rig(std::move(scene));
+  // Half a metre from the middle of 2 x 2 m: 4 asin(a^2 / (a^2 + h^2)).
+  const Vec3 x(0, 0.5f, 0);
+  const double expected = 4 * std::asin(1 / 1.25);
+  const auto& mesh = std::get<MeshLamp>(rig.lamps.all()[0].shape);
+  for (uint32_t i = 0; i < 64; ++i) {
+    LightSample sample;
+    ASSERT_TRUE(rig.lamps.sample(0, x, sobol_pair(i, 0, 5), sample));
+    EXPECT_NEAR(1 / sample.pdf, expected, 1e-4);
+    const Vec3 hit = x + sample.distance * sample.direction;
+    EXPECT_NEAR(hit.y, 1, 1e-4);
+    EXPECT_LE(std::max(std::abs(hit.x), std::abs(hit.z)), 1 + 1e-4f);
+  }
+  const Vec3 middle = rig.world.position(mesh.first_triangle, Vec2(1 / 3.0f)) - x;
+  EXPECT_NEAR(
+      1 / rig.lamps.pdf(mesh.first_triangle, Vec2(1 / 3.0f), glm::length(middle), glm::normalize(middle)),
+      expected, 1e-4);
 }
 
 // Directions that sample() picks have the density that pdf() states: the mean of 1/pdf over samples is the

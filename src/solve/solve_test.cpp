@@ -210,9 +210,11 @@ TEST_P(EverySolver, ErrorIsWhatSeedsScatterOrSomewhatMore) {
   double mean = 0;
   for (const double v : values) mean += v / 24;
   for (const double v : values) scatter += (v - mean) * (v - mean) / 23;
-  // Batches that share a sequence spread further than independent ones of their mean's error: somewhat more.
+  // Batches that share a sequence spread further than independent ones of their mean's error (ADR 26): seen
+  // where single rays are smooth, as those that end on a cache.
+  const double most = GetParam()->name == "radiosity" ? 2 : 1.45;
   EXPECT_GT(stated / std::sqrt(scatter), 0.7) << stated << " against " << std::sqrt(scatter);
-  EXPECT_LT(stated / std::sqrt(scatter), 2.5) << stated << " against " << std::sqrt(scatter);
+  EXPECT_LT(stated / std::sqrt(scatter), most) << stated << " against " << std::sqrt(scatter);
 }
 
 }  // namespace
