@@ -198,7 +198,7 @@ TEST(Cli, InterruptedBakeStopsCleanly) {
   const TemporaryFolder folder;
   const std::string scene = write_room(folder);
   const Outcome bake = run_sconce({"bake", scene, "--atlas", "2048", "--samples", "512"},
-                                  "timeout --preserve-status -k 30 -s INT 2");
+                                  "timeout --foreground --preserve-status -k 30 -s INT 2");
   expect_error(bake, 1, "bake", {"cancelled"});
   EXPECT_FALSE(fs::exists(folder / "room.sconce"));
 }

@@ -108,23 +108,38 @@ Scene bumpy_room() {
   return scene;
 }
 
+/// What stands about every picture of a package here.
+struct Shot {
+  Package package;
+  MixSpec mix;
+  Metering metering;
+  Exposure exposure;
+  const ToneMapper& agx = find_tone_mapper("agx");
+  View cpu;
+  Camera camera;
+  gpu::Context context;
+  ShownScene shown;
+  gpu::View gl;
+
+  Shot(const fs::path& path, const std::string& fader, bool normal_maps = false)
+      : package(Package::open(path)),
+        mix(make_mix(package.manifest().groups, std::vector{fader}, "", {})),
+        metering(meter(package, mix, mix_pages(package, mix))),
+        exposure(auto_exposure(metering.log_mean, metering.maximum)),
+        cpu(package),
+        camera(cpu.camera("")),
+        shown(package),
+        gl(context, shown, normal_maps) {}
+};
+
 // Normal maps under directional light, both ways to mix.
 TEST_F(GlPictures, NormalMapsInEveryTier) {
   write_file(path("bumpy.glb"), write_glb(bumpy_room(), "test"));
   bake(path("bumpy.glb"), "256", "sh1");
   expect_alike({"left=2700K,+1ev"});
-  const Package package = Package::open(path("x.sconce"));
-  const MixSpec mix =
-      make_mix(package.manifest().groups, std::vector<std::string>{"left=2700K,+1ev"}, "", {});
-  const Metering metering = meter(package, mix, mix_pages(package, mix));
-  const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
-  const ToneMapper& agx = find_tone_mapper("agx");
+  Shot shot(path("x.sconce"), "left=2700K,+1ev", true);
+  auto& [package, mix, metering, exposure, agx, cpu, camera, context, shown, gl] = shot;
   const PictureParams params{.width = 320, .height = 320, .samples = 1};
-  const View cpu(package);
-  const Camera camera = cpu.camera("");
-  const gpu::Context context;
-  const ShownScene shown(package);
-  gpu::View gl(context, shown, true);
   for (const ShaderTier& tier : shader_tiers()) {
     SCOPED_TRACE(tier.name);
     const EncodedLayers layers = gpu::for_tier(read_layers(package, coefficients(Basis::sh1)), tier);
@@ -165,17 +180,9 @@ EncodedLayers encoded_as(const Package& package, const EncodingChoice& choice) {
 
 TEST_F(GlPictures, EveryEncodingInEveryTier) {
   bake(fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb", "256");
-  const Package package = Package::open(path("x.sconce"));
-  const MixSpec mix = make_mix(package.manifest().groups, std::vector<std::string>{"window=+2ev"}, "", {});
-  const Metering metering = meter(package, mix, mix_pages(package, mix));
-  const Exposure exposure = auto_exposure(metering.log_mean, metering.maximum);
-  const ToneMapper& agx = find_tone_mapper("agx");
+  Shot shot(path("x.sconce"), "window=+2ev");
+  auto& [package, mix, metering, exposure, agx, cpu, camera, context, shown, gl] = shot;
   const PictureParams params{.width = 240, .height = 160, .samples = 1};
-  const View cpu(package);
-  const Camera camera = cpu.camera("");
-  const gpu::Context context;
-  const ShownScene shown(package);
-  gpu::View gl(context, shown);
   std::set<std::string> shaders;
   for (const char* name :
        {"f32", "f16", "exp8", "rgbe8", "srgbe8", "multi8", "bc6h", "lum:f16", "lum:exp8"}) {
