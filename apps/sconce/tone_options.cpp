@@ -41,7 +41,7 @@ void ToneOptions::declare(Options& options) {
 }
 
 void ToneOptions::apply(const Preset& preset) {
-  if (exposure.empty() && ev100.empty()) exposure = preset.exposure;
+  if (exposure.empty() && ev100.empty()) exposure = preset.exposure, ev100 = preset.ev100;
   if (curve.empty()) curve = preset.tone;
 }
 

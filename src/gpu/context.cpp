@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/context.h"
 
+#include <fmt/format.h>
+
+#include <regex>
+
 #include "core/error.h"
 #include "gpu/display.h"
 
@@ -75,7 +79,35 @@ void EPOXY_CALLSPEC on_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, con
   if (type == GL_DEBUG_TYPE_ERROR && complaint.empty()) complaint = message;
 }
 
+void explain_errors(std::string& complaint) {
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(on_message, &complaint);
+}
+
+void pack_tightly() {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
 }  // namespace
+
+Context::Context(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Context Context::adopt(bool debug) {
+  if (epoxy_gl_version() < 45)
+    throw Error("OpenGL", fmt::format("this window has OpenGL {}.{}", epoxy_gl_version() / 10,
+                                      epoxy_gl_version() % 10),
+                "4.5 or newer");
+  auto state = std::make_unique<State>();
+  if (debug) explain_errors(state->complaint);
+  pack_tightly();
+  // Mesa's names for drawing by the processor; GLX does not tell.
+  static const std::regex software("llvmpipe|softpipe|swrast", std::regex::icase);
+  state->capabilities = ask(std::regex_search(
+      reinterpret_cast<const char*>(glGetString(GL_RENDERER)), software));
+  return Context(std::move(state));
+}
 
 Context::Context(const ContextParams& params) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -91,13 +123,8 @@ Context::Context(const ContextParams& params) : state_(std::make_unique<State>()
   if (s.context == EGL_NO_CONTEXT)
     throw Error("OpenGL", params.hardware_only ? "there is no graphics device with OpenGL 4.5"
                                                : "there is no OpenGL 4.5 on this machine");
-  if (params.debug) {
-    glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-    glDebugMessageCallback(on_message, &s.complaint);
-  }
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  if (params.debug) explain_errors(s.complaint);
+  pack_tightly();
   s.capabilities = ask(s.display.software);
 }
 

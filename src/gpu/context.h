@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenGL 4.5 core without a window. This module is the only place that names OpenGL.
+// OpenGL 4.5 core, without a window or in somebody's. This module is the only place that names OpenGL.
 #pragma once
 
 #include <memory>
@@ -28,6 +28,9 @@ class Context {
  public:
   /// A hardware device where there is one, else software. @throws Error when there is no OpenGL 4.5
   explicit Context(const ContextParams& params = {});
+  /// The context that is current on this thread already, made and kept by someone else: a window.
+  /// @throws Error where it is older than OpenGL 4.5
+  static Context adopt(bool debug);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -42,6 +45,7 @@ class Context {
 
  private:
   struct State;
+  explicit Context(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -16,9 +16,13 @@ TextureParams array_of(const std::vector<Image>& pages) {
 
 MixedPages::MixedPages(const Context& context, const std::vector<Image>& pages)
     : texture_(context, array_of(pages), "lightmap") {
+  set(pages);
+  context.check("uploading the lightmap");
+}
+
+void MixedPages::set(const std::vector<Image>& pages) const {
   for (std::size_t page = 0; page < pages.size(); ++page)
     texture_.upload(GL_RGB, GL_FLOAT, pages[page].data.data(), static_cast<int>(page));
-  context.check("uploading the lightmap");
 }
 
 std::string lightmap_glsl(bool filter, int pages, std::size_t coefficients) {

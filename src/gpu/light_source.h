@@ -32,6 +32,8 @@ class MixedPages : public LightSource {
  public:
   /// @param pages  as of mix_pages()
   MixedPages(const Context& context, const std::vector<Image>& pages);
+  /// Others of the same size. @pre their number is that of the first ones
+  void set(const std::vector<Image>& pages) const;
   std::string glsl() const override;
   void bind(const Program& program, int first_unit) const override;
 

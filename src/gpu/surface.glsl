@@ -7,6 +7,8 @@ uniform vec3 base_color, emission, weight;
 uniform float alpha, alpha_cutoff, metallic;
 uniform bool double_sided, has_normal_map;
 uniform float normal_scale;
+uniform int look;        // gpu/view.h
+uniform vec2 page_size;  // texels of a lightmap page
 
 in vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
 in vec2 normal_uv;
@@ -17,17 +19,29 @@ flat in int front_page, back_page;
 
 out vec4 seen;  // cd/m2; 1 where it is an emitter
 
+vec3 front_normal() {
+  vec3 n = normal == vec3(0.0) ? face_normal : normalize(normal);
+  return dot(n, face_normal) < 0.0 ? -n : n;
+}
+
 // Twin of scene/normal_map.cpp.
 vec3 normal_offset() {
   if (!has_normal_map) return vec3(0.0);
-  vec3 n = normal == vec3(0.0) ? face_normal : normalize(normal);
-  if (dot(n, face_normal) < 0.0) n = -n;
+  vec3 n = front_normal();
   vec3 along = tangent.xyz - n * dot(n, tangent.xyz);
   if (along == vec3(0.0)) return vec3(0.0);
   vec3 t = normalize(along), up = cross(n, t) * (tangent.w < 0.0 ? -1.0 : 1.0);
   vec3 at = 2.0 * texture(normal_map, normal_uv).rgb - 1.0;
   vec3 mapped = normal_scale * (at.x * t + at.y * up) + at.z * n;
   return mapped == vec3(0.0) ? vec3(0.0) : normalize(mapped) - n;
+}
+
+// Squares of four texels, in a colour of their page's own.
+vec3 charts(vec2 uv, int page) {
+  if (page < 0) return vec3(0.6, 0.02, 0.02);
+  vec2 square = floor(uv * page_size / 4.0);
+  vec3 hue = 0.5 + 0.5 * cos(6.2831853 * (0.618034 * float(page) + vec3(0.58, 0.25, 0.92)));
+  return hue * (mod(square.x + square.y, 2.0) < 0.5 ? 0.25 : 0.6);
 }
 
 void main() {
@@ -39,5 +53,14 @@ void main() {
   vec3 light = page < 0 ? vec3(0.0) : illuminance(gl_FrontFacing ? front_uv : back_uv, page, offset);
   vec3 shines = emission * texture(emission_map, emission_uv).rgb;
   if (!gl_FrontFacing && !double_sided) shines = vec3(0.0);
+  if (look != 0) {
+    vec3 n = (gl_FrontFacing ? front_normal() : -front_normal()) + offset;
+    seen.rgb = look == 1   ? light
+               : look == 2 ? albedo
+               : look == 3 ? 0.5 + 0.5 * n
+                           : charts(gl_FrontFacing ? front_uv : back_uv, page);
+    seen.a = 0.0;
+    return;
+  }
   seen = vec4(albedo * light * 0.318309886 + weight * shines, any(notEqual(shines, vec3(0.0))) ? 1.0 : 0.0);
 }

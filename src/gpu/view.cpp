@@ -2,6 +2,7 @@
 #include "gpu/view.h"
 
 #include "core/sobol.h"
+#include "gpu/display_pass.h"
 
 namespace sconce::gpu {
 
@@ -22,16 +23,6 @@ uniform sampler2D pass;
 out vec4 color;
 void main() {
   color = texelFetch(pass, ivec2(gl_FragCoord.xy), 0);
-}
-)";
-constexpr std::string_view kTone = R"(
-uniform sampler2D sum;
-uniform float scale;
-uniform float maximum, adaptation, drago_bias;
-out vec4 color;
-void main() {
-  vec3 exposed = texelFetch(sum, ivec2(gl_FragCoord.xy), 0).rgb * scale;
-  color = vec4(linear_to_srgb(tone_map(exposed, ToneParams(maximum, adaptation, drago_bias))), 1.0);
 }
 )";
 
@@ -104,36 +95,46 @@ void View::draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shif
   glDisable(GL_BLEND);
 }
 
+const Program& View::surface_for(const LightSource& light) {
+  std::string text = std::string(kVersion) + light.glsl() + std::string(kSurface);
+  if (!surface_ || text != surface_text_) {
+    surface_ = std::make_unique<Program>("surface", kSurfaceVertex, text);
+    surface_text_ = std::move(text);
+  }
+  return *surface_;
+}
+
 void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const LightSource& light,
-                const PictureParams& params, const Progress& progress) {
+                const PictureParams& params, const Progress& progress, const DrawOptions& options) {
   params.check();
   const Lens lens(camera, params);
   if (!targets_ || targets_->width() != params.width || targets_->height() != params.height)
     targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
-  samples_ = params.samples;
-  const Program surface("surface", kSurfaceVertex,
-                        std::string(kVersion) + light.glsl() + std::string(kSurface));
+  samples_ = options.last < 0 ? params.samples : std::min(options.last, params.samples);
+  const Program& surface = surface_for(light);
   const Bounds& bounds = shown_->world.bounds;
   surface.set("eye", lens.eye());
   surface.set("to_plane", Mat3(glm::inverse(glm::dmat3(lens.plane()))));
   surface.set("size", Vec2(params.width, params.height));
   // Depth is a float that falls from 1 to 0, so its steps are the same fraction of any distance.
   surface.set("near", 1e-5f * glm::length(bounds.hi - bounds.lo));
+  surface.set("look", static_cast<int>(options.look));
+  surface.set("page_size", options.page_size);
   light.bind(surface, Geometry::kUnits);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GREATER);
   // Rows run downwards, which turns windings round.
   glFrontFace(glm::determinant(lens.plane()) > 0 ? GL_CW : GL_CCW);
 
-  targets_->total.clear();
-  for (int s = 0; s < params.samples; ++s) {
+  if (options.first == 0) targets_->total.clear();
+  for (int s = options.first; s < samples_; ++s) {
     progress.check();
     progress.at("render", static_cast<uint64_t>(s), static_cast<uint64_t>(params.samples));
     const Vec2 shift =
         params.samples == 1 ? Vec2(0) : Vec2(0.5f) - Sampler(params.seed, 0, static_cast<uint32_t>(s)).next();
     targets_->pass.use();
     targets_->pass.clear();
-    draw_sky(lens, weights, shift);
+    if (options.look == Look::picture) draw_sky(lens, weights, shift);
     glEnable(GL_DEPTH_TEST);
     surface.use();
     surface.set("shift", shift);
@@ -178,26 +179,13 @@ Image View::coverage() const {
 }
 
 Image8 View::toned(const Exposure& exposure, const ToneMapper& mapper) const {
-  const Texture display(
-      *context_, {.format = GL_RGBA8, .width = targets_->width(), .height = targets_->height()}, "picture");
-  const Framebuffer target(display, 0);
-  const Program tone("tone curve " + std::string(mapper.name), whole_target_vertex(),
-                     std::string(kVersion) + tone_glsl(mapper) + std::string(kTone));
-  tone.use();
-  tone.set("sum", 0);
-  tone.set("scale", exposure.scale / static_cast<float>(samples_));
-  tone.set("maximum", exposure.params.maximum);
-  tone.set("adaptation", exposure.params.adaptation);
-  tone.set("drago_bias", exposure.params.drago_bias);
-  targets_->sum.bind(0);
-  target.use();
-  glBindVertexArray(nothing_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  Image8 out{targets_->width(), targets_->height(), 3, {}};
-  out.data.resize(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-  target.read(GL_RGB, GL_UNSIGNED_BYTE, out.data.data());
-  context_->check("tone mapping");
-  return out;
+  DisplayPass display(*context_);
+  display.tone(sum(), samples_, exposure, mapper);
+  return display.read();
+}
+
+const Texture& View::sum() const {
+  return targets_->sum;
 }
 
 }  // namespace sconce::gpu

@@ -15,6 +15,17 @@
 
 namespace sconce::gpu {
 
+/// What is seen of a surface: light in cd/m2, what arrives there in lux, the share that it reflects, the
+/// normal of its surface as (n + 1) / 2, or squares of four texels of its lightmap. The latter four have no
+/// sky.
+enum class Look : uint8_t { picture, illuminance, albedo, normals, charts };
+
+struct DrawOptions {
+  Look look = Look::picture;
+  Vec2 page_size{1024};      ///< texels; for charts
+  int first = 0, last = -1;  ///< samples to draw now, on top of those before `first`; -1: to the end
+};
+
 /// A package ready to be drawn.
 class View {
  public:
@@ -30,15 +41,19 @@ class View {
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction or a picture
   /// too large; Cancelled
   void draw(const Camera& camera, const std::vector<Rgb>& weights, const LightSource& light,
-            const PictureParams& params, const Progress& progress = {});
+            const PictureParams& params, const Progress& progress = {}, const DrawOptions& options = {});
 
   Image linear() const;    ///< cd/m2, before exposure
   Image coverage() const;  ///< share of each pixel that shows an emitter or the sky, one channel
   /// Exposure, curve and sRGB transfer, applied on the device.
   Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const;
+  /// The sum of the samples() drawn: RGB, and the coverage.
+  const Texture& sum() const;
+  int samples() const { return samples_; }
 
  private:
   struct Targets;
+  const Program& surface_for(const LightSource& light);
   void draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shift) const;
   std::vector<float> sums() const;
 
@@ -46,6 +61,8 @@ class View {
   const ShownScene* shown_;
   Geometry geometry_;
   Program sky_, add_;
+  std::unique_ptr<Program> surface_;  ///< kept for the light source that it was made for
+  std::string surface_text_;
   std::vector<std::optional<Texture>> skies_;  ///< per light of the scene that is a sky
   std::unique_ptr<Targets> targets_;
   GLuint nothing_ = 0;  ///< vertex array of shaders that need no vertices

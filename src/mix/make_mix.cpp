@@ -44,6 +44,12 @@ std::vector<std::size_t> find_groups(std::span<const GroupInfo> groups, const As
 
 }  // namespace
 
+bool names_group(std::span<const GroupInfo> groups, const std::string& assignment, std::string_view name) {
+  for (const std::size_t g : find_groups(groups, parse_assignment(assignment)))
+    if (groups[g].name == name) return true;
+  return false;
+}
+
 MixSpec make_mix(std::span<const GroupInfo> groups, std::span<const std::string> assignments,
                  std::string_view others, const std::function<void(const std::string&)>& warn) {
   std::vector<std::optional<GroupSetting>> settings(groups.size());

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "mix/mix.h"
+#include "mix/light_meter.h"
 #include "scene/world.h"
 
 namespace sconce {
@@ -67,28 +67,7 @@ struct Sums {
   }
 };
 
-// Bands of rows are summed apart and folded in order: the same bits with any number of threads.
-Sums meter_page(const Image& receivers, const Image& mixed) {
-  constexpr std::size_t kBand = 64;
-  const auto height = static_cast<std::size_t>(mixed.height), width = static_cast<std::size_t>(mixed.width);
-  std::vector<Sums> bands((height + kBand - 1) / kBand);
-  parallel_for(bands.size(), 1, [&](std::size_t band) {
-    Sums& sums = bands[band];
-    for (std::size_t i = band * kBand * width; i < std::min(height, (band + 1) * kBand) * width; ++i) {
-      const float* r = &receivers.data[i * 4];
-      const float* e = &mixed.data[i * 3];
-      if (!(r[3] > 0)) continue;
-      const float l = std::max(0.0f, luminance(Rgb(r[0], r[1], r[2]) * Rgb(e[0], e[1], e[2])) * kInvPi);
-      const auto weight = static_cast<double>(r[3]);
-      sums.log_sum += weight * std::log(static_cast<double>(l) + kDelta);
-      sums.weight += weight;
-      sums.histogram.add(l, weight);
-    }
-  });
-  Sums total;
-  for (const Sums& band : bands) total.add(band);
-  return total;
-}
+constexpr std::size_t kBand = 64;  // rows
 
 // Twins repeat the triangles of their front, which counts both sides; a View's scene has none.
 std::vector<bool> find_twins(const Scene& scene, const Manifest& m) {
@@ -99,14 +78,14 @@ std::vector<bool> find_twins(const Scene& scene, const Manifest& m) {
   return twins;
 }
 
-void add_emitters(const Scene& scene, const Manifest& m, const MixSpec& mix, Histogram& histogram) {
+std::vector<LightMeter::Emitter> find_emitters(const Scene& scene, const Manifest& m) {
+  std::vector<LightMeter::Emitter> emitters;
   const std::vector<bool> twins = find_twins(scene, m);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (twins[i] || !scene.emits(instance)) continue;
     const Mesh& mesh = scene[instance.mesh];
     const Material& material = scene[mesh.material];
-    const Rgb weight = instance.group ? mix.weights.at(instance.group.value) : Rgb(1);
     const TextureUse& use = material.emission_texture;
     const bool textured = use.texture.valid() && use.texcoord < mesh.texcoords.size();
     for (const Triangle& t : mesh.triangles) {
@@ -119,26 +98,63 @@ void add_emitters(const Scene& scene, const Manifest& m, const MixSpec& mix, His
       const float area = 0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
       Rgb emission = material.emission;
       if (textured) emission *= sample_texture(scene, use, uv, true).rgb;
-      if (area > 0 && !weight.is_black())
-        histogram.add(luminance(weight * emission),
-                      static_cast<double>(material.double_sided ? 2 * area : area));
+      if (area > 0)
+        emitters.push_back(
+            {instance.group, emission, static_cast<double>(material.double_sided ? 2 * area : area)});
     }
   }
+  return emitters;
 }
 
 }  // namespace
 
-Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, std::span<const Image> mixed) {
-  if (mixed.size() != static_cast<std::size_t>(package.manifest().pages))
-    throw Error(package.path().string(), "the mix has another number of pages than the package");
+LightMeter::LightMeter(const Package& package, const Scene& scene)
+    : where_(package.path().string()), emitters_(find_emitters(scene, package.manifest())) {
+  for (int page = 0; page < package.manifest().pages; ++page) {
+    const Image receivers = package.receivers(page);
+    const std::size_t band = kBand * static_cast<std::size_t>(receivers.width);
+    std::vector<std::vector<Texel>>& bands = pages_.emplace_back();
+    for (std::size_t i = 0; i < receivers.pixels(); ++i) {
+      if (i % band == 0) bands.emplace_back();
+      const float* r = &receivers.data[i * 4];
+      if (r[3] > 0) bands.back().push_back({Rgb(r[0], r[1], r[2]), r[3], static_cast<uint32_t>(i)});
+    }
+  }
+}
+
+// Bands of rows are summed apart and folded in order: the same bits with any number of threads.
+Metering LightMeter::operator()(const MixSpec& mix, std::span<const Image> mixed) const {
+  if (mixed.size() != pages_.size())
+    throw Error(where_, "the mix has another number of pages than the package");
   Sums sums;
-  for (std::size_t page = 0; page < mixed.size(); ++page)
-    sums.add(meter_page(package.receivers(static_cast<int>(page)), mixed[page]));
-  add_emitters(scene, package.manifest(), mix, sums.histogram);
+  for (std::size_t page = 0; page < mixed.size(); ++page) {
+    std::vector<Sums> bands(pages_[page].size());
+    parallel_for(bands.size(), 1, [&](std::size_t band) {
+      for (const Texel& texel : pages_[page][band]) {
+        const float* e = &mixed[page].data[3 * std::size_t{texel.index}];
+        const float l = std::max(0.0f, luminance(texel.albedo * Rgb(e[0], e[1], e[2])) * kInvPi);
+        const auto weight = static_cast<double>(texel.weight);
+        bands[band].log_sum += weight * std::log(static_cast<double>(l) + kDelta);
+        bands[band].weight += weight;
+        bands[band].histogram.add(l, weight);
+      }
+    });
+    Sums total;
+    for (const Sums& band : bands) total.add(band);
+    sums.add(total);
+  }
+  for (const Emitter& emitter : emitters_) {
+    const Rgb weight = emitter.group ? mix.weights.at(emitter.group.value) : Rgb(1);
+    if (!weight.is_black()) sums.histogram.add(luminance(weight * emitter.emission), emitter.area);
+  }
   Metering metering;
   metering.log_mean = sums.weight > 0 ? std::exp(sums.log_sum / sums.weight) : kDelta;
   metering.maximum = sums.histogram.percentile(kPercentile);
   return metering;
+}
+
+Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, std::span<const Image> mixed) {
+  return LightMeter(package, scene)(mix, mixed);
 }
 
 Metering meter_picture(const Image& picture) {

@@ -5,6 +5,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -36,6 +37,22 @@ std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::tabl
   return entries;
 }
 
+struct Field {
+  std::string_view key;
+  std::string Preset::*value;
+};
+constexpr Field kFields[] = {{"others", &Preset::others},
+                             {"exposure", &Preset::exposure},
+                             {"ev100", &Preset::ev100},
+                             {"tone", &Preset::tone},
+                             {"camera", &Preset::camera}};
+
+std::string* field_of(Preset& preset, std::string_view key) {
+  for (const Field& field : kFields)
+    if (field.key == key) return &(preset.*field.value);
+  return nullptr;
+}
+
 }  // namespace
 
 Preset read_preset(const std::filesystem::path& path) {
@@ -55,21 +72,32 @@ Preset read_preset(const std::filesystem::path& path) {
             preset.assignments.push_back(group + "=" + value);
           }
         }
-      } else if (key == "others" || key == "exposure" || key == "tone" || key == "camera") {
-        const std::string value = value_of(path, key, *node);
-        (key == "others"     ? preset.others
-         : key == "exposure" ? preset.exposure
-         : key == "tone"     ? preset.tone
-                             : preset.camera) = value;
+      } else if (std::string* field = field_of(preset, key)) {
+        *field = value_of(path, key, *node);
       } else {
         throw UsageError(place(path, node->source()), "unknown key '" + key + "'",
-                         "mix, others, exposure, tone, camera");
+                         "mix, others, exposure, ev100, tone, camera");
       }
     }
   } catch (const toml::parse_error& e) {
     throw UsageError(place(path, e.source()), std::string(e.description()));
   }
+  if (!preset.exposure.empty() && !preset.ev100.empty())
+    throw UsageError(path.string(), "exposure and ev100 exclude each other");
   return preset;
+}
+
+std::string print_preset(const Preset& preset) {
+  std::ostringstream text;
+  const auto quoted = [](const std::string& value) { return toml::value<std::string>(value); };
+  for (const Field& field : kFields)
+    if (!(preset.*field.value).empty()) text << field.key << " = " << quoted(preset.*field.value) << '\n';
+  text << "[mix]\n";
+  for (const std::string& assignment : preset.assignments) {
+    const std::size_t equals = assignment.rfind('=');
+    text << quoted(assignment.substr(0, equals)) << " = " << quoted(assignment.substr(equals + 1)) << '\n';
+  }
+  return std::move(text).str();
 }
 
 }  // namespace sconce

@@ -30,6 +30,21 @@ TEST(Preset, OthersInsideMix) {
   EXPECT_EQ(read_preset(folder / "p.toml").assignments, std::vector<std::string>{"z=1"});
 }
 
+TEST(Preset, PrintedOnesReadBack) {
+  Preset preset{.assignments = {"lamp*=0.25", "a \"b\" c=0.5,2700K", "ceiling=off"},
+                .others = "off",
+                .ev100 = "9",
+                .tone = "drago"};
+  const TemporaryFolder folder;
+  write_file(folder / "p.toml", print_preset(preset));
+  const Preset read = read_preset(folder / "p.toml");
+  EXPECT_EQ(read.assignments, preset.assignments);
+  EXPECT_EQ(read.others, "off");
+  EXPECT_EQ(read.ev100, "9");
+  EXPECT_EQ(read.exposure, "");
+  EXPECT_EQ(read.tone, "drago");
+}
+
 TEST(Preset, BadFilesNameFileAndLine) {
   const TemporaryFolder folder;
   const auto error = [&](const char* text) -> std::string {

@@ -37,6 +37,9 @@ struct MixSpec {
   std::vector<Rgb> weights;  ///< per group of the manifest
 };
 
+/// Whether "GROUP=SETTING" addresses the group of that name. @throws UsageError where the text is none
+bool names_group(std::span<const GroupInfo> groups, const std::string& assignment, std::string_view name);
+
 /// `assignments` are "GROUP=SETTING", GROUP a name or glob, later ones win; `all` is every group; `others`
 /// addresses every group not named. @throws UsageError: unknown group ("did you mean", and the list), bad
 /// setting

@@ -8,6 +8,7 @@ namespace sconce {
 
 namespace {
 
+constexpr double kSaturation = 1.2;  // cd/m2 at EV100 0; see ev100_exposure()
 constexpr double kDarkest = 1e-4;  // cd/m2; the metering's own offset
 
 Exposure scaled(double scale, double maximum) {
@@ -24,7 +25,11 @@ Exposure auto_exposure(double log_mean, double maximum, double stops) {
 }
 
 Exposure ev100_exposure(double ev100, double maximum) {
-  return scaled(1.0 / (1.2 * std::exp2(ev100)), maximum);
+  return scaled(1.0 / (kSaturation * std::exp2(ev100)), maximum);
+}
+
+double ev100_of(const Exposure& exposure) {
+  return -std::log2(kSaturation * static_cast<double>(exposure.scale));
 }
 
 Exposure unit_exposure(double maximum) {

@@ -26,6 +26,9 @@ Exposure auto_exposure(double log_mean, double maximum, double stops = 0);
 /// @param maximum  cd/m2, of the metering
 Exposure ev100_exposure(double ev100, double maximum);
 
+/// The EV100 at which ev100_exposure() has the same scale.
+double ev100_of(const Exposure& exposure);
+
 /// No exposure: values stay cd/m2 (`--tone linear` to EXR).
 Exposure unit_exposure(double maximum);
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/goals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "picture/show.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr int kFitSamples = 8;  // rays per pixel
+
+/// Means of blocks, `factor` pixels each way; what does not fill a block is left out.
+Image shrunk(const Image& image, int factor) {
+  Image out = Image::rgb(image.width / factor, image.height / factor);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      Rgb sum;
+      for (int j = 0; j < factor; ++j)
+        for (int i = 0; i < factor; ++i) sum += image.rgb_at(x * factor + i, y * factor + j);
+      out.set_rgb(x, y, sum / static_cast<float>(factor * factor));
+    }
+  return out;
+}
+
+/// The layer of a group alone, decoded.
+std::vector<Image> decoded(const EncodedLayers& layers, std::size_t group) {
+  for (std::size_t t = 0; t < layers.textures.size(); ++t)
+    for (std::size_t i = 0; i < layers.textures[t].groups.size(); ++i)
+      if (layers.textures[t].groups[i] == group) {
+        std::vector<Image> pages;
+        for (const EncodedImage& page : layers.images[t])
+          pages.push_back(layers.textures[t].decode(page, i, layers.colors[group]));
+        return pages;
+      }
+  throw Error({}, "a group has no layer");
+}
+
+/// Pictures of every group alone at unit weight, and last of what shines in no group.
+std::vector<Image> group_pictures(const View& view, const EncodedLayers& layers, const Camera& camera,
+                                  const PictureParams& params, const Progress& progress) {
+  std::vector<CameraHits> hits;
+  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
+  std::vector<Image> pictures;
+  const float share = 1 / static_cast<float>(params.samples);
+  for (std::size_t g = 0; g <= layers.colors.size(); ++g) {
+    const bool grouped = g < layers.colors.size();
+    const std::vector<Image> pages = grouped ? decoded(layers, g) : std::vector<Image>{};
+    Image& picture = pictures.emplace_back(Image::rgb(params.width, params.height));
+    parallel_for(static_cast<std::size_t>(params.height), 4, [&](std::size_t row) {
+      const int y = static_cast<int>(row);
+      std::vector<float> rgb(3 * static_cast<std::size_t>(params.width) + 1);
+      for (const CameraHits& sample : hits) {
+        if (grouped) {
+          shade_row(sample, y, pages, rgb.data());
+          for (std::size_t i = 0; i + 1 < rgb.size(); ++i) picture.at(0, y)[i] += share * rgb[i];
+        }
+        sample.for_each_shine(y, [&](const CameraHits::Shine& shine) {
+          if (grouped ? shine.group.valid() && shine.group.value == g : !shine.group.valid()) {
+            const int x = static_cast<int>(shine.x);
+            picture.set_rgb(x, y, picture.rgb_at(x, y) + share * shine.radiance);
+          }
+        });
+      }
+    });
+  }
+  return pictures;
+}
+
+}  // namespace
+
+std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& faders) {
+  Faders unit = faders;
+  unit.master = 1;
+  for (Fader& fader : unit.groups) fader.on = true, fader.solo = fader.mute = false, fader.gain = 1;
+  return make_mix(groups, unit).weights;
+}
+
+void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target) {
+  std::vector<double> row;
+  for (std::size_t g = 0; g < unit.size(); ++g)
+    row.push_back(static_cast<double>(luminance(unit[g] * lux[g])));
+  wishes.add(row, target, 1 / std::max(target * target, 1.0));
+}
+
+void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
+                  std::span<const Rgb> unit, const Image& target, const Progress& progress) {
+  if (target.stride() < 3) throw Error({}, "the picture to look like has no R, G and B");
+  const int factor = std::max(1, (target.width + kFitWidth - 1) / kFitWidth);
+  const Image wanted = shrunk(target, std::min(factor, std::max(1, target.height)));
+  double mean = 0;
+  for (int y = 0; y < wanted.height; ++y)
+    for (int x = 0; x < wanted.width; ++x) {
+      const auto l = static_cast<double>(luminance(wanted.rgb_at(x, y)));
+      mean += std::log(std::max(l, 0.0) + 1e-4) / static_cast<double>(wanted.pixels());
+    }
+  mean = std::exp(mean);
+  if (!(mean > 1.1e-4)) throw Error({}, "the picture to look like is black");
+  const std::vector<Image> parts = group_pictures(
+      view, layers, camera, {.width = wanted.width, .height = wanted.height, .samples = kFitSamples}, progress);
+  std::vector<double> row(unit.size());
+  for (int y = 0; y < wanted.height; ++y)
+    for (int x = 0; x < wanted.width; ++x) {
+      const Rgb goal = wanted.rgb_at(x, y) - parts.back().rgb_at(x, y);
+      const double scale = static_cast<double>(luminance(wanted.rgb_at(x, y))) + mean;
+      for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+        for (std::size_t g = 0; g < unit.size(); ++g)
+          row[g] = static_cast<double>((unit[g] * parts[g].rgb_at(x, y)).*channel);
+        wishes.add(row, static_cast<double>(goal.*channel), 1 / (scale * scale));
+      }
+    }
+}
+
+Image from_display(const Image8& picture, float grey) {
+  Image out = Image::rgb(picture.width, picture.height);
+  const float scale = grey / 0.18f;
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (std::size_t i = 0; i < out.pixels(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      out.data[3 * i + c] =
+          scale * srgb_to_linear(static_cast<float>(picture.data[i * channels + (channels < 3 ? 0 : c)]) / 255.0f);
+  return out;
+}
+
+Faders with_gains(Faders faders, std::span<const double> gains) {
+  faders.master = 1;
+  for (std::size_t g = 0; g < faders.groups.size(); ++g) {
+    Fader& fader = faders.groups[g];
+    fader.on = gains[g] > 1e-4;
+    fader.solo = fader.mute = false;
+    if (fader.on) fader.gain = gains[g];
+  }
+  return faders;
+}
+
+}  // namespace sconce

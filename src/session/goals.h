@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// "300 lx here, 50 there" and "look like this picture" as wishes over the faders. Faders keep their colours;
+// their gains are what is sought.
+#pragma once
+
+#include "mix/encoded_layers.h"
+#include "mix/fit.h"
+#include "session/fader.h"
+#include "session/measure.h"
+
+namespace sconce {
+
+/// Each fader's weight at gain 1: its colour alone.
+std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& faders);
+
+/// One number wished for at a point; differences count relative to it.
+/// @param lux   of each group there, RGB at unit weight
+/// @param unit  unit_weights()
+void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target);
+
+/// A picture wished for, in cd/m2; every pixel counts relative to its own luminance and the picture's mean.
+/// Pictures wider than kFitWidth are box-filtered to that.
+/// @param camera  that the picture was taken with
+/// @throws Error where the picture has no R, G and B, or is black
+void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
+                  std::span<const Rgb> unit, const Image& target, const Progress& progress = {});
+inline constexpr int kFitWidth = 160;
+
+/// A display's codes back to linear light, as if there were no tone curve: middle grey is `grey` cd/m2.
+Image from_display(const Image8& picture, float grey);
+
+/// Gains as fader positions; colours, and what is not a gain, stay.
+Faders with_gains(Faders faders, std::span<const double> gains);
+
+}  // namespace sconce

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "picture/seen.h"
+
+namespace sconce {
+
+void MeasuringPlane::check() const {
+  if (columns < 1 || rows < 1 || columns > 1000 || rows > 1000)
+    throw UsageError({}, "a measuring plane needs points", "1 to 1000 columns and rows");
+  if (!(glm::length(glm::cross(across, along)) > 1e-6f))
+    throw UsageError({}, "a measuring plane needs an area");
+}
+
+Vec3 MeasuringPlane::point(int column, int row) const {
+  const float u = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
+  const float v = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
+  return corner + u * across + v * along;
+}
+
+std::vector<SurfacePoint> MeasuringPlane::points() const {
+  check();
+  std::vector<SurfacePoint> all;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) all.push_back({point(column, row), normal(), normal()});
+  return all;
+}
+
+MeasuringPlane horizontal_plane(const Bounds& bounds, float height, float spacing) {
+  const Vec3 size = bounds.hi - bounds.lo;
+  const auto margin = [](float side) { return std::min(0.5f, 0.1f * side); };
+  const auto count = [&](float side) {
+    return std::clamp(static_cast<int>(std::ceil(side / std::max(spacing, 0.01f))), 1, 200);
+  };
+  MeasuringPlane plane;
+  plane.corner = {bounds.lo.x + margin(size.x), bounds.lo.y + height, bounds.hi.z - margin(size.z)};
+  plane.across = {size.x - 2 * margin(size.x), 0, 0};
+  plane.along = {0, 0, -(size.z - 2 * margin(size.z))};
+  plane.columns = count(plane.across.x), plane.rows = count(-plane.along.z);
+  return plane;
+}
+
+Rgb MeasuredLight::mixed(std::size_t point, const MixSpec& mix) const {
+  Rgb sum;
+  for (std::size_t g = 0; g < groups; ++g) sum += mix.weights.at(g) * values[point * groups + g];
+  return sum;
+}
+
+struct PointMeter::World {
+  explicit World(const View& view_) : view(view_), lamps(view_.scene(), view_.world()) {}
+  const View& view;
+  Lamps lamps;
+};
+
+PointMeter::PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind)
+    : world_(std::make_unique<World>(view)), points_(std::move(points)), kind_(kind) {
+  light_.groups = view.scene().groups.size();
+  light_.values.resize(points_.size() * light_.groups);
+}
+PointMeter::~PointMeter() = default;
+
+void PointMeter::pass(int samples, const Progress& progress) {
+  const View& view = world_->view;
+  BakeParams params;
+  params.samples = samples;
+  params.seed = ++passes_;
+  const auto solver = find_solver("path").prepare(
+      {view.scene(), view.world(), view.tracer(), world_->lamps}, params, progress);
+  std::vector<Rgb> fresh(light_.values.size());
+  parallel_for(points_.size(), 16, [&](std::size_t i) {
+    progress.check();
+    std::vector<GroupValue> values(light_.groups);
+    solver->solve(Footprint::point(static_cast<uint32_t>(i), kind_, points_[i]), values);
+    for (std::size_t g = 0; g < values.size(); ++g) fresh[i * light_.groups + g] = values[g].illuminance;
+  });
+  const int taken = (samples + kBatches - 1) / kBatches * kBatches;
+  const float share = static_cast<float>(taken) / static_cast<float>(light_.samples + taken);
+  for (std::size_t i = 0; i < fresh.size(); ++i)
+    light_.values[i] = (1 - share) * light_.values[i] + share * fresh[i];
+  light_.samples += taken;
+}
+
+LuxStatistics lux_statistics(std::span<const float> lux) {
+  if (lux.empty()) return {};
+  const auto [low, high] = std::minmax_element(lux.begin(), lux.end());
+  return {static_cast<double>(*low),
+          std::accumulate(lux.begin(), lux.end(), 0.0) / static_cast<double>(lux.size()),
+          static_cast<double>(*high)};
+}
+
+std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix) {
+  std::vector<float> lux;
+  for (std::size_t point = 0; point < light.points(); ++point)
+    lux.push_back(luminance(light.mixed(point, mix)));
+  return lux;
+}
+
+}  // namespace sconce

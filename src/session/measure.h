@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light at points of space, per group: what a lux meter there would show, whatever the faders.
+#pragma once
+
+#include <memory>
+
+#include "picture/render.h"
+#include "solve/solver.h"
+
+namespace sconce {
+
+/// A rectangle of measuring points at the middles of its cells; they face `across` x `along`.
+struct MeasuringPlane {
+  Vec3 corner{0};
+  Vec3 across{1, 0, 0}, along{0, 0, -1};  ///< edges, metres, at right angles
+  int columns = 8, rows = 8;
+
+  /// @throws UsageError for a plane without area, or without points
+  void check() const;
+  Vec3 normal() const { return glm::normalize(glm::cross(across, along)); }
+  Vec3 point(int column, int row) const;
+  std::vector<SurfacePoint> points() const;  ///< row by row
+};
+
+/// Horizontal, facing up, over all of the bounds but half a metre at each side (a tenth where that is less).
+/// @param height  above the lowest floor, metres @param spacing  of points, metres, at most
+MeasuringPlane horizontal_plane(const Bounds& bounds, float height, float spacing);
+
+/// Lux of every group at points, ever more exact with each pass of the path tracer.
+struct MeasuredLight {
+  std::size_t groups = 0;
+  int samples = 0;          ///< paths per point so far
+  std::vector<Rgb> values;  ///< [point * groups + g], at unit weight
+
+  std::size_t points() const { return groups == 0 ? 0 : values.size() / groups; }
+  Rgb mixed(std::size_t point, const MixSpec& mix) const;
+};
+
+class PointMeter {
+ public:
+  /// @param view  of the package; must outlive it
+  PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind);
+  ~PointMeter();
+  /// `samples` more paths at every point. @throws Cancelled; nothing of the pass counts then
+  void pass(int samples, const Progress& progress);
+  const MeasuredLight& light() const { return light_; }
+
+ private:
+  struct World;
+  std::unique_ptr<World> world_;
+  std::vector<SurfacePoint> points_;
+  ReceiverKind kind_;
+  MeasuredLight light_;
+  uint32_t passes_ = 0;
+};
+
+/// What a lighting report gives of a plane.
+struct LuxStatistics {
+  double minimum = 0, average = 0, maximum = 0;
+  double uniformity() const { return average > 0 ? minimum / average : 0; }  ///< U0 of EN 12464-1
+  double diversity() const { return maximum > 0 ? minimum / maximum : 0; }   ///< Ud
+};
+LuxStatistics lux_statistics(std::span<const float> lux);
+/// Luminance of the mix at every point.
+std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix);
+
+}  // namespace sconce
