@@ -47,6 +47,7 @@ class View {
   CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
                   const Progress& progress = {}) const;
 
+  const ShownScene& shown() const { return shown_; }
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
   const World& world() const { return shown_.world; }
   const Tracer& tracer() const { return tracer_; }

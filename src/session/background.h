@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/progress.h"
 
@@ -39,7 +40,11 @@ class Background {
     return std::exchange(fresh_, std::nullopt);
   }
   bool running() const { return locked(running_); }
-  std::string problem() const { return locked(problem_); }
+  /// What it failed at, once.
+  std::string take_problem() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(problem_, {});
+  }
   std::string stage() const { return locked(stage_); }
   double done() const { return locked(done_); }  ///< share of the stage
 

@@ -41,6 +41,8 @@ class Session {
   void end_gesture() { history_.end_gesture(); }
   bool undo() { return stop_fade(), history_.undo(); }
   bool redo() { return stop_fade(), history_.redo(); }
+  /// What is now becomes the first step.
+  void forget_history() { history_ = History<Mood>(Mood(mood())); }
   bool can_undo() const { return history_.can_undo(); }
   bool can_redo() const { return history_.can_redo(); }
 

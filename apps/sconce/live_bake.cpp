@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_bake.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bake_job.h"
+#include "core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+namespace {
+
+struct Stage {
+  int page, samples;
+  bool denoise;
+};
+// The first is there in seconds; the last is what `bake --quality normal --denoise on` gives.
+constexpr Stage kStages[] = {{256, 8, true}, {512, 32, true}, {1024, 128, true}};
+
+}  // namespace
+
+void live_bake(const fs::path& scene, const Progress& progress,
+               const std::function<void(fs::path)>& publish) {
+  std::string folder = (fs::temp_directory_path() / "sconce-view-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw Error(folder, "cannot be written");
+  for (const Stage& stage : kStages) {
+    BakeJob job;
+    job.scene = fs::absolute(scene);
+    job.denoise = stage.denoise;
+    job.atlas.page_size = stage.page;
+    job.params.samples = stage.samples;
+    const PreparedBake bake(job, progress);
+    const fs::path name = fs::path(folder) / fmt::format("{}-{}", scene.stem().string(), stage.page);
+    std::vector<BakeState> states;
+    states.push_back(BakeState::create(fs::path(name) += ".state", bake.header()));
+    run_bake(bake, Shard{}, states.front(), progress);
+    const fs::path package = fs::path(name) += ".sconce";
+    write_result(bake, states, package, {}, progress);
+    publish(package);
+  }
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/viewer.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "app.h"
+#include "live_bake.h"
+#include "picture_options.h"
+
+namespace sconce::app {
+
+int run_view(int argc, const char* const* argv) {
+  std::string input, script, size;
+  bool forget = false;
+  Options options("view",
+                  "A window on a package: its light groups on faders, the picture following; or on a scene, "
+                  "which is baked while you look.");
+  options.positional("FILE", &input, "NAME.sconce, or a scene (glTF, OBJ); none = an empty window", false);
+  options.option("--script", &script, "does what this file says, line by line, then closes; see docs/window.md");
+  options.option("--size", &size, "WIDTHxHEIGHT of the window (default: as the last time)");
+  options.flag("--forget", &forget, "neither reads nor keeps sizes and recent files");
+  if (const auto code = options.parse(argc, argv)) return *code;
+
+  viewer::ViewRequest request;
+  request.file = input;
+  request.forget = forget || !script.empty();
+  if (!script.empty()) request.script = parse_script(read_file(script), script);
+  if (!size.empty()) {
+    const PictureSize wanted = parse_size(size);
+    request.width = wanted.width;
+    request.height = wanted.height > 0 ? wanted.height : wanted.width * 9 / 16;
+  }
+  if (!input.empty() && !std::filesystem::exists(input)) throw Error(input, "no such file");
+  request.bake = live_bake;
+  const ThreadLimit threads(options.threads);
+  viewer::show_window(request);
+  return kDone;
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/canvas.h"
+
+#include <chrono>
+#include <cstdint>
+
+#include "gpu/tiers.h"
+
+namespace sconce::viewer {
+
+namespace {
+
+bool same(const Scenery& a, const Scenery& b) {
+  return a.camera.frame == b.camera.frame && a.camera.yfov == b.camera.yfov && a.width == b.width &&
+         a.height == b.height && a.look == b.look;
+}
+
+/// The mixed light alone, however it is shown.
+bool shows_light(LookKind look) {
+  return look == LookKind::lux || look == LookKind::lightmap || look == LookKind::noise;
+}
+
+gpu::Look gpu_look(LookKind look) {
+  if (shows_light(look)) return gpu::Look::illuminance;
+  switch (look) {
+    case LookKind::albedo:
+      return gpu::Look::albedo;
+    case LookKind::normals:
+      return gpu::Look::normals;
+    case LookKind::charts:
+      return gpu::Look::charts;
+    default:
+      return gpu::Look::picture;
+  }
+}
+
+ImTextureID id_of(const gpu::Texture& texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture.handle()));
+}
+
+}  // namespace
+
+Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened)
+    : context_(&context),
+      opened_(std::move(opened)),
+      view_(context, opened_->rays.shown()),
+      mixer_(opened_->layers),
+      display_(context),
+      reference_display_(context) {
+  const ShaderTier& tier = gpu::tier_of(context.capabilities());
+  // Mixing by a processor that plays graphics device is slower than by the one that is a processor.
+  if (!context.capabilities().software && tier.f16)
+    atlas_ = std::make_unique<gpu::AtlasMix>(context, gpu::for_tier(opened_->layers, tier), tier);
+}
+
+void Canvas::update_mix(const MixSpec& mix, bool metered) {
+  if (mixed_ && mix.weights == mix_.weights && (metered_ || !metered)) return;
+  const auto start = std::chrono::steady_clock::now();
+  const bool on_device = atlas_ != nullptr;
+  if (!on_device || metered) {
+    const std::vector<Image>& pages = mixer_.mix(mix);
+    if (metered) metering_ = opened_->meter(mix, pages);
+    fader_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (!on_device && pages_ == nullptr)
+      pages_ = std::make_unique<gpu::MixedPages>(*context_, pages);
+    else if (!on_device)
+      pages_->set(pages);
+  }
+  if (on_device) atlas_->mix(mix.weights);
+  mix_ = mix, mixed_ = true, metered_ = metered;
+  samples_ = 0;
+}
+
+const gpu::LightSource& Canvas::light(LookKind look) {
+  if (look == LookKind::noise) {
+    if (noise_ == nullptr || noise_mix_.weights != mix_.weights) {
+      noise_ = std::make_unique<gpu::MixedPages>(*context_, mixed_noise(*opened_, mix_));
+      noise_mix_ = mix_;
+    }
+    return *noise_;
+  }
+  if (atlas_ != nullptr) return *atlas_;
+  return *pages_;
+}
+
+bool Canvas::draw(const Session& session, const Scenery& scenery) {
+  const bool metered = session.mood().automatic || find_tone_mapper(session.mood().tone).needs_maximum;
+  update_mix(session.mix(), metered);
+  if (!same(scenery, drawn_)) samples_ = 0;
+  const bool redisplay = samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);
+  if (samples_ < kSamples) {
+    const Manifest& m = opened_->package.manifest();
+    view_.draw(scenery.camera, mix_.weights, light(scenery.look),
+               {.width = scenery.width, .height = scenery.height, .samples = kSamples}, {},
+               {.look = gpu_look(scenery.look),
+                .page_size = Vec2(m.width, m.height),
+                .first = samples_,
+                .last = samples_ + 1});
+    ++samples_;
+  }
+  drawn_ = scenery, shown_ = session.mood();
+  if (redisplay) display(session, scenery);
+  return samples_ < kSamples;
+}
+
+void Canvas::display(const Session& session, const Scenery& scenery) {
+  const ToneMapper& curve = find_tone_mapper(session.mood().tone);
+  if (!row_of(scenery.look).unit.empty()) {
+    display_.false_color(view_.sum(), view_.samples(), 1, scenery.scale);
+  } else if (scenery.look == LookKind::picture || scenery.look == LookKind::reference) {
+    display_.tone(view_.sum(), view_.samples(), session.exposure(metering_), curve);
+  } else if (scenery.look == LookKind::lightmap) {
+    Exposure exposure = session.exposure(metering_);
+    exposure.scale *= kInvPi;
+    display_.tone(view_.sum(), view_.samples(), exposure, curve);
+  } else {
+    display_.tone(view_.sum(), view_.samples(), Exposure{}, find_tone_mapper("linear"));
+  }
+}
+
+void Canvas::set_reference(const Image& linear, const Session& session) {
+  reference_sum_ = std::make_unique<gpu::Texture>(
+      *context_, gpu::TextureParams{.format = GL_RGB32F, .width = linear.width, .height = linear.height},
+      "reference");
+  reference_sum_->upload(GL_RGB, GL_FLOAT, linear.data.data());
+  reference_display_.tone(*reference_sum_, 1, session.exposure(metering_),
+                          find_tone_mapper(session.mood().tone));
+}
+
+ImTextureID Canvas::texture() const {
+  return id_of(display_.texture());
+}
+ImTextureID Canvas::reference() const {
+  return id_of(reference_display_.texture());
+}
+
+}  // namespace sconce::viewer

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture in the window: drawn again where something changed, smoothed while nothing does.
+#pragma once
+
+#include <imgui.h>
+
+#include <memory>
+
+#include "gpu/display_pass.h"
+#include "gpu/light_source.h"
+#include "gpu/mix.h"
+#include "gpu/view.h"
+#include "mix/mixer.h"
+#include "session/look.h"
+#include "session/opened.h"
+#include "session/session.h"
+
+namespace sconce::viewer {
+
+/// All that a picture depends on.
+struct Scenery {
+  Camera camera;
+  int width = 0, height = 0;
+  LookKind look = LookKind::picture;
+  FalseColor scale;
+};
+
+class Canvas {
+ public:
+  Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened);
+
+  /// Draws what is needed. @return whether more samples are to come
+  bool draw(const Session& session, const Scenery& scenery);
+  /// Beside the picture, of the same size: codes of another one, for the right half of `reference`.
+  void set_reference(const Image& linear, const Session& session);
+  bool has_reference() const { return reference_sum_ != nullptr; }
+  void forget_reference() { reference_sum_.reset(); }
+
+  ImTextureID texture() const;
+  ImTextureID reference() const;
+  Image8 read() const { return display_.read(); }
+  const Metering& metering() const { return metering_; }
+  const MixSpec& mix() const { return mix_; }
+  double fader_milliseconds() const { return fader_ms_; }  ///< processor's work of the last fader move
+  static constexpr int kSamples = 16;
+
+ private:
+  void update_mix(const MixSpec& mix, bool metered);
+  const gpu::LightSource& light(LookKind look);
+  void display(const Session& session, const Scenery& scenery);
+
+  const gpu::Context* context_;
+  std::shared_ptr<const Opened> opened_;
+  gpu::View view_;
+  Mixer mixer_;
+  std::unique_ptr<gpu::AtlasMix> atlas_;    ///< where a graphics device mixes
+  std::unique_ptr<gpu::MixedPages> pages_;  ///< where the processor does
+  std::unique_ptr<gpu::MixedPages> noise_;
+  MixSpec noise_mix_;
+  gpu::DisplayPass display_, reference_display_;
+  std::unique_ptr<gpu::Texture> reference_sum_;
+
+  MixSpec mix_;
+  bool mixed_ = false, metered_ = false;
+  Metering metering_;
+  Scenery drawn_;
+  Mood shown_;
+  int samples_ = 0;
+  double fader_ms_ = 0;
+};
+
+}  // namespace sconce::viewer

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/driver.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "viewer/viewer.h"
+
+namespace sconce::viewer {
+
+namespace {
+
+std::vector<float> numbers(const Action& action, std::size_t i, std::size_t fewest) {
+  std::vector<float> found;
+  for (const std::string& part : split(action.arguments.at(i), ','))
+    if (const auto value = parse_number(trim(part))) found.push_back(static_cast<float>(*value));
+  if (found.size() < fewest)
+    throw UsageError(action.where, "'" + action.arguments[i] + "' is not understood",
+                     std::to_string(fewest) + " numbers with commas between");
+  return found;
+}
+
+}  // namespace
+
+bool Driver::step() {
+  Viewer& v = *viewer_;
+  v.hands_->keys.clear(), v.hands_->control = v.hands_->shift = false;
+  if (shooting_) {
+    if (v.shot_) write_png(actions_[at_ - 1].arguments.at(0), *v.shot_);
+    shooting_ = false;
+  }
+  if (path_at_ < path_.size()) {
+    const auto [x, y] = path_[path_at_];
+    v.hands_->mouse = ImVec2(x, y);
+    v.hands_->left = path_at_ > 0 && path_at_ + 1 < path_.size();  // over it, down, along, up
+    ++path_at_;
+    return true;
+  }
+  if (frames_ > 0) return --frames_, true;
+  if (until_ > ImGui::GetTime()) return true;
+  if (settling_) {
+    const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() || v.measuring_.running();
+    if (moving) return true;
+    settling_ = false;
+  }
+  if (at_ >= actions_.size()) return false;
+  const Action& action = actions_[at_++];
+  // What a package's state is asked for before it is there waits for it.
+  if (!v.state_.ready() && !v.state_.file.empty() && action.word != "screenshot" && action.word != "frames" &&
+      action.word != "wait" && action.word != "key" && action.word != "drop") {
+    if (const std::string problem = v.state_.notes.empty() ? "" : v.state_.notes.back().first; !problem.empty())
+      throw Error(action.where, problem);
+    --at_;
+    return true;
+  }
+  return perform(action);
+}
+
+void Driver::drag(float x0, float y0, float x1, float y1) {
+  constexpr int kSteps = 8;
+  path_ = {{x0, y0}};
+  for (int i = 0; i <= kSteps; ++i) {
+    const float t = static_cast<float>(i) / kSteps;
+    path_.emplace_back(x0 + t * (x1 - x0), y0 + t * (y1 - y0));
+  }
+  path_.emplace_back(x1, y1);
+  path_at_ = 0;
+}
+
+bool Driver::perform(const Action& action) {
+  Viewer& v = *viewer_;
+  State& s = v.state_;
+  const auto& [word, arguments, where] = action;
+  if (s.session && s.session->perform(action)) return frames_ = 1, true;
+  if (word == "quit") return false;
+  if (word == "frames") return frames_ = static_cast<int>(numbers(action, 0, 1)[0]), true;
+  if (word == "wait") return until_ = ImGui::GetTime() + static_cast<double>(numbers(action, 0, 1)[0]), true;
+  if (word == "settle") return frames_ = 2, settling_ = true;
+  if (word == "drop") return v.drop(arguments[0]), frames_ = 2, true;
+  if (word == "screenshot") return v.want_shot_ = shooting_ = true;
+  if (word == "key") {
+    for (const std::string& part : split(lower(arguments[0]), '+')) {
+      if (part == "ctrl")
+        v.hands_->control = true;
+      else if (part == "shift")
+        v.hands_->shift = true;
+      else if (const int key = key_of(part))
+        v.hands_->keys.insert(key);
+      else
+        throw UsageError(where, "unknown key '" + part + "'", "a to z, 0 to 9, f1 to f12, space, escape, tab, ctrl, shift");
+    }
+    frames_ = 1;  // and lets go
+    return true;
+  }
+  if (word == "move" || word == "click") {
+    const auto at = numbers(action, 0, 2);
+    if (word == "click")
+      drag(at[0], at[1], at[0], at[1]);
+    else
+      v.hands_->mouse = ImVec2(at[0], at[1]), frames_ = 2;
+    return true;
+  }
+  if (word == "drag") {
+    const auto from = numbers(action, 0, 2), to = numbers(action, 1, 2);
+    return drag(from[0], from[1], to[0], to[1]), true;
+  }
+  if (!s.ready()) throw Error(where, word + " needs an open package");
+  if (word == "pull") {
+    const auto place = s.fader_places.find(s.session->groups()[s.session->group(arguments[0])].name);
+    if (place == s.fader_places.end()) throw Error(where, "that fader is not shown");
+    const float y = place->second.y + 0.5f * place->second.w;
+    const double stops = stops_of(s.session->mood().faders.groups[s.session->group(arguments[0])].gain);
+    const float x = place->second.x + place->second.z * static_cast<float>((stops - kLowestStop) / (kHighestStop - kLowestStop));
+    return drag(x, y, x + numbers(action, 1, 1)[0], y), true;
+  }
+  if (word == "picture") return write_png(arguments[0], s.canvas->read()), true;
+  if (word == "hold") return s.session->meter_once(v.metering_now()), frames_ = 1, true;
+  if (word == "camera") return s.camera = *find_camera(s.opened->rays.scene(), arguments[0]), frames_ = 1, true;
+  if (word == "eye") {
+    const auto eye = numbers(action, 0, 3), target = numbers(action, 1, 3);
+    const float yfov = s.camera.yfov;
+    s.camera = look_at({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
+    s.camera.yfov = yfov;
+    return frames_ = 1, true;
+  }
+  if (word == "look") return v.set_look(find_look(arguments[0]).kind), frames_ = 1, true;
+  if (word == "scale") {
+    FalseColor scale = s.scale();
+    scale.low = numbers(action, 0, 1)[0], scale.high = numbers(action, 1, 1)[0];
+    scale.decades = arguments.size() > 2;
+    scale.check();
+    return s.scale() = scale, frames_ = 1, true;
+  }
+  if (word == "lines") return s.scale().lines = arguments[0] == "on", frames_ = 1, true;
+  if (word == "plane") {
+    s.plane.height = numbers(action, 0, 1)[0];
+    if (arguments.size() > 1) s.plane.spacing = numbers(action, 1, 1)[0];
+    return v.measure(), frames_ = 1, true;
+  }
+  if (word == "wish") {
+    const auto at = numbers(action, 0, 3);
+    const Vec3 position(at[0], at[1], at[2]), normal = at.size() >= 6 ? glm::normalize(Vec3(at[3], at[4], at[5])) : Vec3(0, 1, 0);
+    PointMeter meter(s.opened->rays, {{position, normal, normal}}, ReceiverKind::plane);
+    meter.pass(4096, {});
+    return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values), true;
+  }
+  if (word == "like") return v.seek_picture(arguments[0]), frames_ = 1, true;
+  if (word == "seek") return v.seek(), frames_ = 1, true;
+  if (word == "package") return v.save_package(arguments[0]), true;
+  throw Error(where, "the window does not know '" + word + "'");
+}
+
+}  // namespace sconce::viewer

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lux on a plane while faders move, and faders moved to what is wished for.
+#include <fmt/format.h>
+
+#include "viewer/viewer.h"
+#include "viewer/widgets.h"
+
+namespace sconce::viewer {
+
+namespace {
+
+void figure(const char* label, const std::string& value, bool first) {
+  if (!first) ImGui::SameLine(0, px(18));
+  ImGui::BeginGroup();
+  ImGui::PushFont(fonts().large);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::PopFont();
+  ImGui::PushFont(fonts().small);
+  ImGui::TextDisabled("%s", label);
+  ImGui::PopFont();
+  ImGui::EndGroup();
+}
+
+}  // namespace
+
+void Viewer::design_panel() {
+  Plane& plane = state_.plane;
+  const MixSpec mix = state_.session->mix();
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted("Measuring plane");
+  ImGui::PopFont();
+  bool shown = plane.shown;
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (toggle("plane", shown ? "On" : "Off", shown, palette::kAccent, px(54))) {
+    if (shown)
+      plane.shown = false, measuring_.stop();
+    else
+      measure();
+  }
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(0.36f * width);
+  ImGui::DragFloat("##height", &plane.height, 0.01f, 0, 100, "%.2f m high");
+  bool again = ImGui::IsItemDeactivatedAfterEdit();
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::DragFloat("##spacing", &plane.spacing, 0.01f, 0.05f, 10, "every %.2f m");
+  again |= ImGui::IsItemDeactivatedAfterEdit();
+  if (again && plane.shown) measure();
+  if (plane.shown && plane.light.samples > 0) {
+    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix));
+    figure("average lux", fmt::format("{:.0f}", s.average), true);
+    figure("minimum", fmt::format("{:.0f}", s.minimum), false);
+    figure("maximum", fmt::format("{:.0f}", s.maximum), false);
+    figure("uniformity", fmt::format("{:.2f}", s.uniformity()), false);
+    ImGui::PushFont(fonts().small);
+    ImGui::TextDisabled("%s", fmt::format("{} x {} points, {} paths each{}", plane.grid.columns, plane.grid.rows,
+                                          plane.light.samples, measuring_.running() ? ", measuring" : "")
+                                  .c_str());
+    ImGui::PopFont();
+  }
+
+  ImGui::Dummy({0, px(6)});
+  ImGui::Separator();
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted("Goals");
+  ImGui::PopFont();
+  ImGui::PushFont(fonts().small);
+  ImGui::PushTextWrapPos();
+  ImGui::TextDisabled("Ctrl-click a surface to wish for lux there; drop a picture to wish for its mood.");
+  ImGui::PopTextWrapPos();
+  ImGui::PopFont();
+  for (std::size_t i = 0; i < state_.goals.size(); ++i) {
+    Goal& goal = state_.goals[i];
+    ImGui::PushID(static_cast<int>(i));
+    float now = 0;
+    for (std::size_t g = 0; g < goal.lux.size(); ++g) now += luminance(mix.weights[g] * goal.lux[g]);
+    auto target = static_cast<float>(goal.target);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(fmt::format("{}", i + 1).c_str());
+    ImGui::SameLine(px(24));
+    ImGui::SetNextItemWidth(0.4f * width);
+    if (ImGui::DragFloat("##target", &target, 2, 0, 1e6f, "%.0f lux")) goal.target = static_cast<double>(target);
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", fmt::format("now {:.0f}", now).c_str());
+    ImGui::SameLine(width - px(24));
+    const bool gone = ImGui::SmallButton("x");
+    ImGui::PopID();
+    if (gone) {
+      state_.goals.erase(state_.goals.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    }
+  }
+  if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
+  if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
+}
+
+}  // namespace sconce::viewer

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exposure, tone curve, cameras, and what of the package is looked at.
+#include <fmt/format.h>
+
+#include "viewer/viewer.h"
+#include "viewer/widgets.h"
+
+namespace sconce::viewer {
+
+namespace {
+
+void heading(const char* text) {
+  ImGui::Dummy({0, px(4)});
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+}  // namespace
+
+void Viewer::look_panel() {
+  Session& session = *state_.session;
+  Mood mood = session.mood();
+  const float width = ImGui::GetContentRegionAvail().x;
+
+  heading("Exposure");
+  if (toggle("held", "Held", !mood.automatic, palette::kAccent, 0.32f * width) && mood.automatic)
+    session.meter_once(metering_now());
+  tip("stays as it is while faders move");
+  ImGui::SameLine();
+  if (toggle("auto", "Automatic", mood.automatic, palette::kAccent, 0.32f * width) && !mood.automatic) {
+    mood.automatic = true, mood.stops = 0;
+    session.change(mood);
+  }
+  tip("follows the mix, as `sconce render` does");
+  mood = session.mood();
+  ImGui::SetNextItemWidth(-1);
+  auto value = static_cast<float>(mood.automatic ? mood.stops : mood.ev100);
+  if (ImGui::SliderFloat("##exposure", &value, mood.automatic ? -6.0f : -4.0f, mood.automatic ? 6.0f : 18.0f,
+                         mood.automatic ? "%+.2f EV" : "EV100 %.2f, higher is darker")) {
+    (mood.automatic ? mood.stops : mood.ev100) = static_cast<double>(value);
+    session.change(mood, "exposure");
+  }
+  if (ImGui::IsItemDeactivated()) session.end_gesture();
+
+  heading("Tone curve");
+  float used = 0;
+  for (const ToneMapper& mapper : tone_mappers()) {
+    const std::string name(mapper.name);
+    const float wide = ImGui::CalcTextSize(name.c_str()).x + px(20);
+    if (used > 0 && used + wide < width) ImGui::SameLine(); else used = 0;
+    used += wide + ImGui::GetStyle().ItemSpacing.x;
+    if (toggle(name.c_str(), name.c_str(), mood.tone == name, palette::kAccent, wide)) {
+      mood.tone = name;
+      session.change(mood);
+    }
+    tip(std::string(mapper.doc).c_str());
+  }
+
+  heading("View");
+  for (const LookRow& row : look_rows()) {
+    if (toggle(std::string(row.name).c_str(), std::string(row.label).c_str(), state_.look == row.kind,
+               palette::kAccent, (width - 2 * ImGui::GetStyle().ItemSpacing.x) / 3))
+      set_look(row.kind);
+    tip(std::string(row.doc).c_str());
+    if (static_cast<int>(row.kind) % 3 != 2) ImGui::SameLine();
+  }
+  if (!row_of(state_.look).unit.empty()) {
+    FalseColor scale = state_.scale();
+    float ends[] = {scale.low, scale.high};
+    ImGui::Dummy({0, px(2)});
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::DragFloat2("##scale", ends, std::max(scale.high * 0.01f, 0.001f), 0, 1e7f, "%.4g"))
+      scale.low = ends[0], scale.high = ends[1];
+    tip("where the scale begins and ends");
+    if (ImGui::Checkbox("by decades", &scale.decades) && scale.decades && !(scale.low > 0))
+      scale.low = scale.high * 1e-4f;
+    ImGui::SameLine();
+    ImGui::Checkbox("iso-lines", &scale.lines);
+    if (scale.low >= 0 && scale.high > scale.low && (!scale.decades || scale.low > 0)) state_.scale() = scale;
+  }
+  if (state_.look == LookKind::reference) {
+    ImGui::TextDisabled("%s", fmt::format("{} paths per pixel", traced_ ? traced_->samples : 0).c_str());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("trace this view")) refine_reference();
+  }
+
+  heading("Cameras");
+  for (const Camera& camera : state_.opened->rays.scene().cameras)
+    if (ImGui::Selectable((camera.name + "##camera").c_str(), camera.name == state_.camera.name &&
+                                                                  camera.frame == state_.camera.frame))
+      state_.camera = camera;
+  auto fov = state_.camera.yfov * 180 / kPi;
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderFloat("##fov", &fov, 10, 120, "field of view %.0f\u00b0")) state_.camera.yfov = fov * kPi / 180;
+  if (ImGui::Button("All in sight", {-1, 0}))
+    state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
+}
+
+}  // namespace sconce::viewer

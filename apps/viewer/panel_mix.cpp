@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The side with the faders.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/kelvin.h"
+#include "session/search.h"
+#include "viewer/viewer.h"
+#include "viewer/widgets.h"
+
+namespace sconce::viewer {
+
+void Viewer::side_panel(ImVec2 at, ImVec2 size) {
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize(size);
+  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
+  ImGui::Begin("side", nullptr, kFixed | ImGuiWindowFlags_NoScrollWithMouse);
+  if (ImGui::BeginTabBar("tabs")) {
+    struct Tab {
+      const char* name;
+      void (Viewer::*draw)();
+    };
+    for (const Tab& tab : {Tab{"Mix", &Viewer::mix_panel}, Tab{"Look", &Viewer::look_panel},
+                           Tab{"Light design", &Viewer::design_panel}})
+      if (ImGui::BeginTabItem(tab.name)) {
+        ImGui::BeginChild("content", {0, 0}, false);
+        (this->*tab.draw)();
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+    ImGui::EndTabBar();
+  }
+  // The border between picture and faders.
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool on_border = std::abs(mouse.x - at.x) < px(4) && mouse.y > at.y && mouse.y < at.y + size.y;
+  if (on_border && ImGui::GetIO().MouseClicked[0]) state_.resizing = true;
+  if (!ImGui::GetIO().MouseDown[0]) state_.resizing = false;
+  if (on_border || state_.resizing) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (state_.resizing)
+    remembered_.panel = std::clamp(remembered_.panel - ImGui::GetIO().MouseDelta.x / px(1), 300.0f, 900.0f);
+  ImGui::End();
+}
+
+void Viewer::mix_panel() {
+  Session& session = *state_.session;
+  Mood mood = session.mood();
+  // Presets and A/B.
+  const float third = (ImGui::GetContentRegionAvail().x - 3 * ImGui::GetStyle().ItemSpacing.x) / 4;
+  for (const char slot : {'a', 'b'}) {
+    const std::string name(1, static_cast<char>(slot - 'a' + 'A'));
+    if (toggle(("##keep" + name).c_str(), name.c_str(), session.kept(slot), palette::kAccent, third)) {
+      if (session.kept(slot) && !ImGui::GetIO().KeyShift)
+        session.recall(slot, state_.fade_seconds);
+      else
+        session.keep(slot);
+    }
+    tip("keeps the mix aside; a second click fades back to it, Shift-click keeps anew");
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Save", {third, 0})) attempt([&] { save_preset(); });
+  tip("writes NAME-TIME.toml beside the package, for `sconce render --preset`; drop one to load it");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(third);
+  auto seconds = static_cast<float>(state_.fade_seconds);
+  if (ImGui::DragFloat("##fade", &seconds, 0.05f, 0, 60, "fade %.1f s"))
+    state_.fade_seconds = static_cast<double>(seconds);
+  tip("how long cross-fades take");
+
+  // Master.
+  ImGui::Dummy({0, px(2)});
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted("Master");
+  ImGui::PopFont();
+  const FaderMove master = fader_track("master", mood.faders.master, palette::kText, true);
+  if (master.moved) {
+    mood.faders.master = master.gain;
+    session.change(mood, "master");
+  }
+  if (master.released) session.end_gesture();
+  ImGui::Dummy({0, px(2)});
+
+  std::vector<std::string> names;
+  for (const GroupInfo& group : session.groups()) names.push_back(group.name);
+  if (names.size() > 6) {
+    std::array<char, 128> text{};
+    state_.search.copy(text.data(), text.size() - 1);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##search", "search groups", text.data(), text.size()))
+      state_.search = text.data();
+  }
+  for (const FaderFolder& folder : fader_folders(names, state_.search)) {
+    const std::string title = fmt::format("{}  ({})", folder.name, folder.groups.size());
+    if (!folder.name.empty() && !ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) continue;
+    for (const std::size_t g : folder.groups) fader_row(g);
+  }
+}
+
+void Viewer::fader_row(std::size_t g) {
+  Session& session = *state_.session;
+  const GroupInfo& group = session.groups()[g];
+  Mood mood = session.mood();
+  Fader& fader = mood.faders.groups[g];
+  const MixSpec mix = session.mix();
+  ImGui::PushID(static_cast<int>(g));
+  bool changed = false;
+  std::string gesture;
+
+  // Name, solo, mute.
+  const Rgb light = group.color * (mix.weights[g].is_black() ? unit_weights(session.groups(), mood.faders)[g]
+                                                             : mix.weights[g]);
+  const ImU32 color = chip(light);
+  if (light_switch("on", fader.on, color)) fader.on = !fader.on, changed = true;
+  tip(fader.on ? "switches the group off" : "switches the group on");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushFont(fonts().strong);
+  ImGui::PushStyleColor(ImGuiCol_Text, mix.weights[g].is_black() ? palette::kDim : palette::kText);
+  ImGui::TextUnformatted(group.name.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  if (ImGui::IsItemHovered()) {
+    std::string lamps;
+    for (const std::string& lamp : group.lamps) lamps += "\n  " + lamp;
+    ImGui::SetTooltip("%s", fmt::format("{:.0f} lm as baked, mean {:.1f} lux, noise {:.1f} %{}", group.lumens,
+                                        group.mean_lux, 100 * group.noise, lamps)
+                                .c_str());
+  }
+  const float small = px(26), gap = px(4);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - 3 * small - 2 * gap);
+  if (color_chip("color", color, small)) ImGui::OpenPopup("colour");
+  tip("colour: its own, kelvin, another one, or a tint");
+  ImGui::SameLine(0, gap);
+  if (toggle("solo", "S", fader.solo, palette::kSolo, small)) fader.solo = !fader.solo, changed = true;
+  tip("solo: this group alone");
+  ImGui::SameLine(0, gap);
+  if (toggle("mute", "M", fader.mute, palette::kMute, small)) fader.mute = !fader.mute, changed = true;
+  tip("mute: hides this group, presets do not");
+  color_popup(g);
+
+  const FaderMove move = fader_track("track", fader.gain, color, fader.on);
+  state_.fader_places[group.name] = move.place;
+  if (move.moved) fader.gain = move.gain, fader.on = move.gain > 0, changed = true, gesture = "gain " + group.name;
+  if (!(fader.gain > 0)) fader.gain = 1;  // what switching on goes back to
+  if (changed) session.change(mood, gesture);
+  if (move.released) session.end_gesture();
+
+  // In words.
+  ImGui::PushFont(fonts().small);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
+  std::string words = fader.on ? fmt::format("{:+.1f} EV  \u00d7{:.3g}", stops_of(fader.gain), fader.gain) : "off";
+  if (fader.on && group.lumens > 0) words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * mood.faders.master);
+  if (fader.color == Fader::Color::kelvin) words += fmt::format("  {:.0f} K", fader.kelvin);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  ImGui::Dummy({0, px(1)});
+  ImGui::PopID();
+}
+
+void Viewer::color_popup(std::size_t g) {
+  if (!ImGui::BeginPopup("colour")) return;
+  Session& session = *state_.session;
+  const GroupInfo& group = session.groups()[g];
+  Mood mood = session.mood();
+  Fader& fader = mood.faders.groups[g];
+  bool changed = false;
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted(group.name.c_str());
+  ImGui::PopFont();
+  struct Choice {
+    const char* name;
+    Fader::Color color;
+    const char* what;
+  };
+  for (const Choice& choice : {Choice{"Own", Fader::Color::own, "as baked"},
+                               Choice{"Kelvin", Fader::Color::kelvin, "a colour temperature, the flux stays"},
+                               Choice{"Colour", Fader::Color::color, "another colour, the flux stays"},
+                               Choice{"Tint", Fader::Color::tint, "a filter before the lamp"}}) {
+    if (toggle(choice.name, choice.name, fader.color == choice.color, palette::kAccent, px(66)))
+      fader.color = choice.color, changed = true;
+    tip(choice.what);
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+  ImGui::SetNextItemWidth(px(290));
+  if (fader.color == Fader::Color::kelvin) {
+    auto kelvin = static_cast<float>(fader.kelvin);
+    if (ImGui::SliderFloat("##kelvin", &kelvin, static_cast<float>(kKelvinMin), static_cast<float>(kKelvinMax),
+                           "%.0f K", ImGuiSliderFlags_Logarithmic)) {
+      fader.kelvin = std::clamp(static_cast<double>(kelvin), kKelvinMin, kKelvinMax);
+      changed = true;
+    }
+    kelvin_ramp({px(290), px(8)});
+    for (const int usual : {2200, 2700, 3000, 4000, 5000, 6500}) {
+      if (ImGui::SmallButton(fmt::format("{}", usual).c_str())) fader.kelvin = usual, changed = true;
+      ImGui::SameLine();
+    }
+    ImGui::NewLine();
+  } else if (fader.color != Fader::Color::own) {
+    changed |= ImGui::ColorPicker3("##picker", &fader.code.r,
+                                   ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_PickerHueWheel |
+                                       ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_NoSmallPreview);
+  }
+  if (group.color_spread > 1e-4) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
+    ImGui::TextUnformatted("Its lamps differ: exact for their mean only.");
+    ImGui::PopStyleColor();
+  }
+  if (changed) session.change(mood, "colour " + group.name);
+  ImGui::EndPopup();
+}
+
+}  // namespace sconce::viewer

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/viewer.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "package/manifest.h"
+#include "viewer/driver.h"
+#include "viewer/theme.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::viewer {
+
+namespace {
+
+constexpr double kNoteSeconds = 6;
+
+Remembered start_with(const ViewRequest& request) {
+  Remembered r = request.forget ? Remembered{} : remember(remembered_file());
+  if (request.width > 0) r.width = request.width, r.height = request.height;
+  return r;
+}
+
+bool ends_with_any(const fs::path& file, std::initializer_list<const char*> endings) {
+  const std::string ending = lower(file.extension().string());
+  return std::any_of(endings.begin(), endings.end(), [&](const char* e) { return ending == e; });
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewRequest& request)
+    : request_(request),
+      remembered_(start_with(request)),
+      window_(remembered_.width, remembered_.height, "sconce"),
+      script_(request.script) {
+  if (!script_.empty()) hands_.emplace();
+  if (!request.file.empty()) open(request.file);
+}
+
+Viewer::~Viewer() {
+  baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop();
+  std::error_code ignored;
+  if (!own_folder_.empty()) fs::remove_all(own_folder_, ignored);
+  if (request_.forget) return;
+  remembered_.width = static_cast<int>(window_.size().x);
+  remembered_.height = static_cast<int>(window_.size().y);
+  keep(remembered_, remembered_file());
+}
+
+void Viewer::run() {
+  std::optional<Driver> driver;
+  if (!script_.empty()) driver.emplace(*this, script_);
+  while (!window_.closing()) {
+    if (driver && !driver->step()) break;
+    // Asleep while nothing moves; a script waits for nobody.
+    frame(driver || drawing_more_ || busy() ? 0 : 0.1);
+  }
+}
+
+void Viewer::frame(double wait) {
+  window_.begin_frame(busy() && !drawing_more_ && wait > 0 ? 0.03 : wait, hands_);
+  for (const std::string& file : window_.take_dropped()) attempt([&] { drop(file); });
+  take_results();
+  keys();
+  if (state_.session) drawing_more_ = state_.session->advance(static_cast<double>(ImGui::GetIO().DeltaTime));
+
+  const ImVec2 all = ImGui::GetIO().DisplaySize;
+  const float top = px(44), bottom = px(26);
+  const float side = state_.ready() && state_.panels ? std::min(px(remembered_.panel), 0.6f * all.x) : 0;
+  const ImVec2 canvas_at(0, top), canvas_size(all.x - side, all.y - top - bottom);
+  if (state_.ready()) {
+    draw_canvas(canvas_at, canvas_size);
+    if (side > 0) side_panel({all.x - side, top}, {side, all.y - top - bottom});
+  } else {
+    welcome(canvas_at, canvas_size);
+  }
+  top_bar({0, 0}, {all.x, top});
+  status_bar({0, all.y - bottom}, {all.x, bottom});
+  help_card();
+  shot_ = window_.end_frame(want_shot_);
+  want_shot_ = false;
+}
+
+void Viewer::drop(const fs::path& file) {
+  if (ends_with_any(file, {".toml"}) && state_.session)
+    return (void)state_.session->perform(
+        {"preset", {file.string(), fmt::format("{}", state_.fade_seconds)}, "drop"});
+  if (ends_with_any(file, {".png", ".jpg", ".jpeg", ".exr", ".hdr"}) && state_.session)
+    return seek_picture(file);
+  open(file);
+}
+
+void Viewer::open(const fs::path& file) {
+  if (!fs::exists(file)) throw Error(file.string(), "no such file");
+  baking_.stop();
+  fs::path whole = file.has_filename() ? file : file.parent_path();
+  state_.file = whole;
+  if (fs::is_directory(whole)) {
+    opening_.start([whole](const Progress&, const auto& publish) {
+      publish(std::make_shared<const Opened>(whole));
+    });
+  } else {
+    if (!request_.bake) throw Error(file.string(), "is no package");
+    baking_.start([this, whole](const Progress& progress, const auto& publish) {
+      request_.bake(whole, progress, publish);
+    });
+  }
+  remembered_.opened(whole);
+  window_.set_title(whole.filename().string() + " - sconce");
+}
+
+void Viewer::take_results() {
+  if (const auto package = baking_.take()) {
+    own_folder_ = package->parent_path();
+    const fs::path path = *package;
+    opening_.start([path](const Progress&, const auto& publish) {
+      publish(std::make_shared<const Opened>(path));
+    });
+  }
+  if (auto opened = opening_.take()) attempt([&] { show(*opened); });
+  if (auto light = measuring_.take()) state_.plane.light = std::move(*light);
+  if (auto light = tracing_.take()) traced_ = std::move(*light);
+  for (const std::string& problem : {opening_.take_problem(), baking_.take_problem(),
+                                     measuring_.take_problem(), tracing_.take_problem()})
+    if (!problem.empty()) note(problem);
+}
+
+void Viewer::show(std::shared_ptr<const Opened> opened) {
+  measuring_.stop(), tracing_.stop();
+  reference_.reset(), traced_.reset();
+  auto canvas = std::make_unique<Canvas>(window_.context(), opened);
+  const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
+  // A finer bake of the same scene: faders, camera and goals stay.
+  const auto alike = [](const GroupInfo& a, const GroupInfo& b) { return a.name == b.name; };
+  const bool again = state_.session && state_.ready() && !own_folder_.empty() &&
+                     std::equal(groups.begin(), groups.end(), state_.session->groups().begin(),
+                                state_.session->groups().end(), alike);
+  state_.canvas = std::move(canvas);
+  state_.opened = std::move(opened);
+  state_.package = state_.opened->package.path();
+  if (again) {
+    if (state_.plane.shown) measure();
+    return;
+  }
+  state_.session = std::make_unique<Session>(groups);
+  state_.camera = state_.opened->rays.camera("");
+  state_.scales.clear(), state_.goals.clear(), state_.sought.clear();
+  state_.look = LookKind::picture;
+  state_.plane.shown = false;
+  // The exposure is metered once and held, so that a fader that goes down darkens the picture.
+  const Metering metering = metering_now();
+  state_.session->meter_once(metering);
+  state_.session->forget_history();
+  for (const auto& [kind, typical] : {std::pair{LookKind::lux, 8 * metering.log_mean},
+                                      {LookKind::luminance, metering.log_mean}})
+    state_.scales[kind] = fitting_scale(typical, false);
+  state_.scales[LookKind::noise] = {.low = 0, .high = 20};
+}
+
+void Viewer::set_look(LookKind look) {
+  state_.look = look;
+  if (look == LookKind::reference) refine_reference();
+}
+
+void Viewer::refine_reference() {
+  tracing_.stop();
+  const int width = std::max(static_cast<int>(state_.canvas_size.x) / 2, 16);
+  const int height = std::max(static_cast<int>(state_.canvas_size.y) / 2, 16);
+  reference_.emplace(state_.opened->rays, state_.camera,
+                     PictureParams{.width = width, .height = height, .samples = 1});
+  traced_.reset();
+  tracing_.start([meter = std::make_shared<PointMeter>(reference_->meter()), opened = state_.opened](
+                     const Progress& progress, const auto& publish) {
+    for (int pass = 0; pass < 128; ++pass) {
+      meter->pass(8, progress);
+      publish(meter->light());
+    }
+  });
+}
+
+void Viewer::measure() {
+  Plane& plane = state_.plane;
+  plane.shown = true;
+  plane.grid = horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
+  plane.light = {};
+  measuring_.start([opened = state_.opened, points = plane.grid.points()](const Progress& progress,
+                                                                          const auto& publish) {
+    PointMeter meter(opened->rays, points, ReceiverKind::plane);
+    for (int samples = 64; samples <= 2048; samples *= 2) {
+      meter.pass(samples, progress);
+      publish(meter.light());
+    }
+  });
+}
+
+void Viewer::add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux) {
+  state_.goals.push_back({position, normal, target, std::move(lux)});
+}
+
+void Viewer::seek() {
+  Session& session = *state_.session;
+  if (state_.goals.empty()) return note("no goal yet: Ctrl-click a surface in the picture");
+  const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
+  Wishes wishes(unit.size());
+  for (const Goal& goal : state_.goals) wish_lux(wishes, goal.lux, unit, goal.target);
+  std::vector<double> power;
+  for (const GroupInfo& group : session.groups()) power.push_back(group.lumens);
+  const Fit found = fit(wishes, power, 1e-4);
+  Mood mood = session.mood();
+  mood.faders = with_gains(mood.faders, found.gains);
+  session.fade_to(mood, state_.fade_seconds);
+  state_.sought = fmt::format("off by {:.1f} % of the goals", 100 * found.residual);
+}
+
+void Viewer::seek_picture(const fs::path& file) {
+  Session& session = *state_.session;
+  const MixSpec mix = session.mix();
+  const bool linear = ends_with_any(file, {".exr", ".hdr"});
+  Image target = linear ? read_image(file) : Image();
+  if (!linear) {
+    const std::string bytes = read_file(file);
+    target = from_display(decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()},
+                                        file.string()),
+                          0.18f / session.exposure(state_.canvas->metering()).scale);
+  }
+  const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
+  Wishes wishes(unit.size());
+  wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
+  const Fit found = fit(wishes);
+  Mood mood = session.mood();
+  mood.faders = with_gains(mood.faders, found.gains);
+  session.fade_to(mood, state_.fade_seconds);
+  state_.sought = fmt::format("{}: off by {:.1f} %", file.filename().string(), 100 * found.residual);
+  note("faders moved to look like " + file.filename().string());
+}
+
+void Viewer::screenshot() {
+  const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
+  write_png(name, state_.canvas->read());
+  note("picture written: " + fs::absolute(name).string());
+}
+
+void Viewer::save_preset() {
+  const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}.toml", state_.file.stem().string(),
+                                       fmt::localtime(std::time(nullptr)));
+  const fs::path path = state_.file.parent_path() / name;
+  write_file(path, print_preset(to_preset(state_.session->groups(), state_.session->mood(), "")));
+  note("preset written: " + path.string());
+}
+
+void Viewer::save_package(fs::path target) {
+  if (target.empty()) target = fs::path(state_.file).replace_extension(".sconce");
+  if (fs::exists(target) && !is_package(target))
+    throw Error(target.string(), "exists and is no package, so it is left alone");
+  Beside beside(target);
+  fs::copy(state_.package, beside.path(), fs::copy_options::recursive);
+  beside.commit();
+  note("package written: " + target.string());
+}
+
+Metering Viewer::metering_now() const {
+  const MixSpec mix = state_.session->mix();
+  return state_.opened->meter(mix, Mixer(state_.opened->layers).mix(mix));
+}
+
+void Viewer::note(const std::string& line) {
+  state_.notes.emplace_back(line, ImGui::GetTime() + kNoteSeconds);
+  if (state_.notes.size() > 5) state_.notes.pop_front();
+}
+
+void Viewer::attempt(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    note(error.what());
+  }
+}
+
+bool Viewer::busy() const {
+  return opening_.running() || baking_.running() || measuring_.running() || tracing_.running() ||
+         !state_.notes.empty();
+}
+
+void show_window(const ViewRequest& request) {
+  Viewer(request).run();
+}
+
+}  // namespace sconce::viewer

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window's parts and the state that they share. What the state means is src/session's.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "session/background.h"
+#include "session/goals.h"
+#include "session/look.h"
+#include "session/measure.h"
+#include "session/motion.h"
+#include "session/reading.h"
+#include "session/reference.h"
+#include "session/remembered.h"
+#include "viewer/canvas.h"
+#include "viewer/window.h"
+
+namespace sconce::viewer {
+
+struct ViewRequest {
+  std::filesystem::path file;    ///< package; empty = none yet
+  std::vector<Action> script;    ///< then the window closes, unless it is empty
+  int width = 0, height = 0;     ///< of the window; 0 = as it was the last time
+  bool forget = false;           ///< neither reads nor writes what is remembered
+  /// Bakes a scene into packages, coarse ones first; called beside the window. Each package published stands
+  /// until the next is.
+  std::function<void(const std::filesystem::path& scene, const Progress&,
+                     const std::function<void(std::filesystem::path)>& publish)>
+      bake;
+};
+
+/// A measuring plane that is on, and what was measured.
+struct Plane {
+  bool shown = false;
+  float height = 0.75f, spacing = 0.5f;
+  MeasuringPlane grid;
+  MeasuredLight light;
+};
+
+/// "300 lx here".
+struct Goal {
+  Vec3 position{0}, normal{0, 1, 0};
+  double target = 300;
+  std::vector<Rgb> lux;  ///< of each group, at unit weight
+};
+
+struct State {
+  std::filesystem::path file;  ///< as it was asked for; empty = none
+  std::filesystem::path package;  ///< that is shown; another one where a scene is baked
+  std::shared_ptr<const Opened> opened;
+  std::unique_ptr<Canvas> canvas;
+  std::unique_ptr<Session> session;
+  Camera camera;
+  LookKind look = LookKind::picture;
+  std::map<LookKind, FalseColor> scales;
+  std::string search;
+  bool help = false, reading = true, panels = true, resizing = false;
+  std::optional<Reading> under;  ///< the pointer
+  Plane plane;
+  std::vector<Goal> goals;
+  std::string sought;  ///< what goal seeking found, in words
+  std::deque<std::pair<std::string, double>> notes;  ///< lines that fade, with the time they end
+  ImVec2 canvas_at{0, 0}, canvas_size{1, 1};
+  std::map<std::string, ImVec4> fader_places;  ///< for scripts: x, y, width, height of each track
+  std::optional<Vec3> pivot;                   ///< while a drag turns around it
+  double fade_seconds = 1;
+
+  bool ready() const { return canvas != nullptr; }
+  FalseColor& scale() { return scales[look]; }
+};
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewRequest& request);
+  ~Viewer();
+  void run();
+
+ private:
+  friend class Driver;
+  void open(const std::filesystem::path& file);
+  void drop(const std::filesystem::path& file);
+  void show(std::shared_ptr<const Opened> opened);
+  void take_results();
+  void frame(double wait);
+  void draw_canvas(ImVec2 at, ImVec2 size);
+  void navigate();
+  void keys();
+  void set_look(LookKind look);
+  void measure();
+  void add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux);
+  void seek();
+  void seek_picture(const std::filesystem::path& file);
+  void refine_reference();
+  void screenshot();
+  void save_preset();
+  /// Keeps what was baked. @param target  empty = beside the scene
+  void save_package(std::filesystem::path target);
+  Metering metering_now() const;
+  void note(const std::string& line);
+  /// Runs what a button does; what it throws becomes a note.
+  void attempt(const std::function<void()>& work);
+  bool busy() const;
+
+  // Panels, one file each.
+  void top_bar(ImVec2 at, ImVec2 size);
+  void status_bar(ImVec2 at, ImVec2 size);
+  void side_panel(ImVec2 at, ImVec2 size);
+  void mix_panel();
+  void fader_row(std::size_t group);
+  void color_popup(std::size_t group);
+  void look_panel();
+  void design_panel();
+  void overlays();
+  void help_card();
+  void welcome(ImVec2 at, ImVec2 size);
+
+  ViewRequest request_;
+  Remembered remembered_;
+  Window window_;
+  State state_;
+  std::vector<Action> script_;
+  Background<std::shared_ptr<const Opened>> opening_;
+  Background<std::filesystem::path> baking_;
+  Background<MeasuredLight> measuring_, tracing_;
+  std::optional<ReferencePicture> reference_;
+  std::optional<MeasuredLight> traced_;
+  bool drawing_more_ = false, want_shot_ = false;
+  std::optional<Image8> shot_;
+  std::optional<Hands> hands_;
+  std::filesystem::path own_folder_;  ///< of what is baked; goes when the window does
+};
+
+
+/// Opens the window and returns when it is closed, or when the script has ended.
+/// @throws Error: no display, old OpenGL, and in a script whatever goes wrong
+void show_window(const ViewRequest& request);
+
+}  // namespace sconce::viewer
