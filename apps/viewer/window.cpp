@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "gpu/window_target.h"
@@ -30,7 +31,7 @@ std::string what_glfw_says() {
 
 struct Window::State {
   GLFWwindow* window = nullptr;
-  std::optional<gpu::Context> context;
+  std::unique_ptr<gpu::Context> context;
   std::vector<std::string> dropped;
   bool imgui = false;
 
@@ -58,7 +59,7 @@ Window::Window(int width, int height, const std::string& title) : state_(std::ma
     throw Error("view", "this display has no OpenGL 4.5: " + what_glfw_says(), kInstead);
   glfwMakeContextCurrent(state_->window);
   glfwSwapInterval(1);
-  state_->context.emplace(gpu::Context::adopt(true));
+  state_->context = gpu::Context::adopt(true);
   glfwSetWindowUserPointer(state_->window, state_.get());
   glfwSetDropCallback(state_->window, [](GLFWwindow* window, int count, const char** paths) {
     auto* state = static_cast<State*>(glfwGetWindowUserPointer(window));

@@ -94,7 +94,7 @@ void pack_tightly() {
 
 Context::Context(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
-Context Context::adopt(bool debug) {
+std::unique_ptr<Context> Context::adopt(bool debug) {
   if (epoxy_gl_version() < 45)
     throw Error("OpenGL", fmt::format("this window has OpenGL {}.{}", epoxy_gl_version() / 10,
                                       epoxy_gl_version() % 10),
@@ -106,7 +106,7 @@ Context Context::adopt(bool debug) {
   static const std::regex software("llvmpipe|softpipe|swrast", std::regex::icase);
   state->capabilities = ask(std::regex_search(
       reinterpret_cast<const char*>(glGetString(GL_RENDERER)), software));
-  return Context(std::move(state));
+  return std::unique_ptr<Context>(new Context(std::move(state)));
 }
 
 Context::Context(const ContextParams& params) : state_(std::make_unique<State>()) {

@@ -30,7 +30,7 @@ class Context {
   explicit Context(const ContextParams& params = {});
   /// The context that is current on this thread already, made and kept by someone else: a window.
   /// @throws Error where it is older than OpenGL 4.5
-  static Context adopt(bool debug);
+  static std::unique_ptr<Context> adopt(bool debug);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

@@ -63,6 +63,7 @@ PointMeter::PointMeter(const View& view, std::vector<SurfacePoint> points, Recei
   light_.groups = view.scene().groups.size();
   light_.values.resize(points_.size() * light_.groups);
 }
+PointMeter::PointMeter(PointMeter&&) noexcept = default;
 PointMeter::~PointMeter() = default;
 
 void PointMeter::pass(int samples, const Progress& progress) {

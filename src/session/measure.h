@@ -40,6 +40,7 @@ class PointMeter {
  public:
   /// @param view  of the package; must outlive it
   PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind);
+  PointMeter(PointMeter&&) noexcept;
   ~PointMeter();
   /// `samples` more paths at every point. @throws Cancelled; nothing of the pass counts then
   void pass(int samples, const Progress& progress);
