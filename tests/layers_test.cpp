@@ -128,6 +128,7 @@ TEST(Layers, LibrariesStayInTheirPlace) {
                         {R"(stb_image)", "src/image/"},
                         {R"(^tbb/)", "src/core/", {"bench/replay"}},
                         {R"(^(epoxy|EGL|GL)/)", "src/gpu/", {"examples/"}},
+                        {R"(^(GLFW/|imgui|backends/imgui))", "apps/viewer/"},
                         {R"(^hwy/)", "src/mix/", {"src/tone/", "src/picture/", "src/transfer/"}},
                         {R"(^CLI/)", "apps/sconce/options.cpp"}};
   std::map<std::string, int> found;

@@ -19,8 +19,8 @@ namespace sconce::app {
 
 namespace {
 
-constexpr int kPaths = 4096;       // per point
-constexpr double kThrift = 1e-4;   // of the power, beside the goals
+constexpr int kPaths = 4096;      // per point
+constexpr double kThrift = 1e-4;  // of the power, beside the goals
 
 /// "x,y,z[,nx,ny,nz]=300".
 struct PointGoal {
@@ -36,8 +36,9 @@ struct PointGoal {
       if (const auto value = parse_number(trim(part))) numbers.push_back(static_cast<float>(*value));
     if (!target || !(*target >= 0) || (numbers.size() != 3 && numbers.size() != 6))
       throw UsageError("option '--lux'", "'" + text + "' is no goal", "X,Y,Z=LUX or X,Y,Z,NX,NY,NZ=LUX");
-    const Vec3 normal = numbers.size() == 6 ? normalize_or({numbers[3], numbers[4], numbers[5]}, Vec3(0, 1, 0))
-                                            : Vec3(0, 1, 0);
+    const Vec3 normal = numbers.size() == 6
+                            ? normalize_or({numbers[3], numbers[4], numbers[5]}, Vec3(0, 1, 0))
+                            : Vec3(0, 1, 0);
     at = {{numbers[0], numbers[1], numbers[2]}, normal, normal};
     lux = *target;
   }
@@ -52,7 +53,8 @@ Image read_target(const std::string& file, const PictureOptions& picture, const 
   const std::string bytes = read_file(file);
   return from_display(
       decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file),
-      kMiddleGrey / picture.tone.exposure_choice().resolve(meter(package, mix, mix_pages(package, mix))).scale);
+      kMiddleGrey /
+          picture.tone.exposure_choice().resolve(meter(package, mix, mix_pages(package, mix))).scale);
 }
 
 }  // namespace
@@ -62,13 +64,16 @@ int run_fit(int argc, const char* const* argv) {
   std::vector<std::string> points;
   MixOptions settings;
   PictureOptions picture;
-  Options options("fit",
-                  "Moves the faders to where they come nearest to a picture, or to illuminances at points with "
-                  "the least power, and writes them as a preset. Colours stay as they are set.");
+  Options options(
+      "fit",
+      "Moves the faders to where they come nearest to a picture, or to illuminances at points with "
+      "the least power, and writes them as a preset. Colours stay as they are set.");
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
-  options.option("--target", &target, "picture to look like: OpenEXR or Radiance in cd/m2; PNG or JPEG as exposed");
-  options.option("--lux", &points, "X,Y,Z[,NX,NY,NZ]=LUX: illuminance at a point, facing up unless told otherwise");
+  options.option("--target", &target,
+                 "picture to look like: OpenEXR or Radiance in cd/m2; PNG or JPEG as exposed");
+  options.option("--lux", &points,
+                 "X,Y,Z[,NX,NY,NZ]=LUX: illuminance at a point, facing up unless told otherwise");
   options.option("--camera", &picture.camera, "that the picture was taken with (default: the first)");
   options.option("--eye", &picture.eye, "X,Y,Z in metres, with --target-point");
   options.option("--target-point", &picture.target, "X,Y,Z in metres that --eye looks at");
@@ -76,7 +81,8 @@ int run_fit(int argc, const char* const* argv) {
   picture.tone.declare(options);
   options.option("-o,--output", &output, "preset to write (default: standard output)");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (target.empty() && points.empty()) throw UsageError({}, "nothing to come near to", "--target FILE, --lux X,Y,Z=LUX");
+  if (target.empty() && points.empty())
+    throw UsageError({}, "nothing to come near to", "--target FILE, --lux X,Y,Z=LUX");
   picture.check();
   std::vector<PointGoal> goals(points.begin(), points.end());
   if (!output.empty()) check_output(output, {".toml"});
@@ -104,8 +110,7 @@ int run_fit(int argc, const char* const* argv) {
   if (!target.empty()) {
     const MixSpec mix = make_mix(groups, faders);
     const Image wanted = read_target(target, picture, package, mix, progress);
-    const Camera camera =
-        picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
+    const Camera camera = picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
     wish_picture(wishes, view, layers, camera, unit, wanted, progress);
   }
   std::vector<double> power;
@@ -124,22 +129,24 @@ int run_fit(int argc, const char* const* argv) {
   for (std::size_t g = 0; g < groups.size(); ++g) lumens += groups[g].lumens * found.gains[g];
   const MixSpec mix = make_mix(groups, faders);
   for (std::size_t i = 0; i < goals.size(); ++i)
-    reached.push_back({{"wanted", goals[i].lux},
-                       {"lux", static_cast<double>(luminance(meter.light().mixed(i, mix)))}});
+    reached.push_back(
+        {{"wanted", goals[i].lux}, {"lux", static_cast<double>(luminance(meter.light().mixed(i, mix)))}});
   if (options.json) {
-    const nlohmann::ordered_json report = {{"input", input},
-                                           {"output", output},
-                                           {"residual", found.residual},
-                                           {"lumens", lumens},
-                                           {"points", reached},
-                                           {"milliseconds", milliseconds},
-                                           {"groups", nlohmann::ordered_json::parse(weights_json(groups, mix))}};
+    const nlohmann::ordered_json report = {
+        {"input", input},
+        {"output", output},
+        {"residual", found.residual},
+        {"lumens", lumens},
+        {"points", reached},
+        {"milliseconds", milliseconds},
+        {"groups", nlohmann::ordered_json::parse(weights_json(groups, mix))}};
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else {
     if (output.empty()) fmt::print("{}", text);
     if (!options.quiet) {
       for (const auto& point : reached)
-        fmt::print("# {:.0f} lx wanted, {:.1f} lx reached\n", point["wanted"].get<double>(), point["lux"].get<double>());
+        fmt::print("# {:.0f} lx wanted, {:.1f} lx reached\n", point["wanted"].get<double>(),
+                   point["lux"].get<double>());
       fmt::print("# residual {:.2f} %, {:.0f} lm\n", 100 * found.residual, lumens);
     }
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/viewer.h"
 
+#include "app.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
-#include "app.h"
 #include "live_bake.h"
 #include "picture_options.h"
 
@@ -17,7 +17,8 @@ int run_view(int argc, const char* const* argv) {
                   "A window on a package: its light groups on faders, the picture following; or on a scene, "
                   "which is baked while you look.");
   options.positional("FILE", &input, "NAME.sconce, or a scene (glTF, OBJ); none = an empty window", false);
-  options.option("--script", &script, "does what this file says, line by line, then closes; see docs/window.md");
+  options.option("--script", &script,
+                 "does what this file says, line by line, then closes; see docs/window.md");
   options.option("--size", &size, "WIDTHxHEIGHT of the window (default: as the last time)");
   options.flag("--forget", &forget, "neither reads nor keeps sizes and recent files");
   if (const auto code = options.parse(argc, argv)) return *code;

@@ -80,7 +80,8 @@ void Viewer::top_bar(ImVec2 at, ImVec2 size) {
   }
   ImGui::SameLine();
   ImGui::SetNextItemWidth(px(130));
-  if (ImGui::BeginCombo("##look", std::string(row_of(state_.look).label).c_str(), ImGuiComboFlags_HeightLarge)) {
+  if (ImGui::BeginCombo("##look", std::string(row_of(state_.look).label).c_str(),
+                        ImGuiComboFlags_HeightLarge)) {
     for (const LookRow& row : look_rows())
       if (ImGui::Selectable(std::string(row.label).c_str(), row.kind == state_.look)) set_look(row.kind);
     ImGui::EndCombo();
@@ -122,7 +123,8 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     const ImVec2 text = ImGui::CalcTextSize(note->first.c_str(), nullptr, false, 0.7f * size.x);
     y -= text.y + px(22);
     const float x = 0.5f * (size.x - text.x);
-    draw.AddRectFilled({x - px(16), y}, {x + text.x + px(16), y + text.y + px(16)}, IM_COL32(40, 41, 46, 245), px(8));
+    draw.AddRectFilled({x - px(16), y}, {x + text.x + px(16), y + text.y + px(16)}, IM_COL32(40, 41, 46, 245),
+                       px(8));
     draw.AddText(nullptr, 0, {x, y + px(8)}, palette::kText, note->first.c_str(), nullptr, 0.7f * size.x);
   }
 }
@@ -161,7 +163,8 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
   ImGui::SetCursorPos({x, 0.24f * size.y});
   ImGui::BeginGroup();
   ImGui::PushFont(fonts().large);
-  ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str() : "Drop a package or a scene here");
+  ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str()
+                                 : "Drop a package or a scene here");
   ImGui::PopFont();
   if (waiting) {
     const std::string stage = baking_.running() ? baking_.stage() : "opening";

@@ -87,7 +87,8 @@ bool Canvas::draw(const Session& session, const Scenery& scenery) {
   const bool metered = session.mood().automatic || find_tone_mapper(session.mood().tone).needs_maximum;
   update_mix(session.mix(), metered);
   if (!same(scenery, drawn_)) samples_ = 0;
-  const bool redisplay = samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);
+  const bool redisplay =
+      samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);
   if (samples_ < kSamples) {
     const Manifest& m = opened_->package.manifest();
     view_.draw(scenery.camera, mix_.weights, light(scenery.look),

@@ -40,7 +40,8 @@ bool Driver::step() {
   if (frames_ > 0) return --frames_, true;
   if (until_ > ImGui::GetTime()) return true;
   if (settling_) {
-    const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() || v.measuring_.running();
+    const bool moving =
+        v.drawing_more_ || v.opening_.running() || v.baking_.running() || v.measuring_.running();
     if (moving) return true;
     settling_ = false;
   }
@@ -49,7 +50,8 @@ bool Driver::step() {
   // What a package's state is asked for before it is there waits for it.
   if (!v.state_.ready() && !v.state_.file.empty() && action.word != "screenshot" && action.word != "frames" &&
       action.word != "wait" && action.word != "key" && action.word != "drop") {
-    if (const std::string problem = v.state_.notes.empty() ? "" : v.state_.notes.back().first; !problem.empty())
+    if (const std::string problem = v.state_.notes.empty() ? "" : v.state_.notes.back().first;
+        !problem.empty())
       throw Error(action.where, problem);
     --at_;
     return true;
@@ -88,7 +90,8 @@ bool Driver::perform(const Action& action) {
       else if (const int key = key_of(part))
         v.hands_->keys.insert(key);
       else
-        throw UsageError(where, "unknown key '" + part + "'", "a to z, 0 to 9, f1 to f12, space, escape, tab, ctrl, shift");
+        throw UsageError(where, "unknown key '" + part + "'",
+                         "a to z, 0 to 9, f1 to f12, space, escape, tab, ctrl, shift");
     }
     frames_ = 1;  // and lets go
     return true;
@@ -111,12 +114,14 @@ bool Driver::perform(const Action& action) {
     if (place == s.fader_places.end()) throw Error(where, "that fader is not shown");
     const float y = place->second.y + 0.5f * place->second.w;
     const double stops = stops_of(s.session->mood().faders.groups[s.session->group(arguments[0])].gain);
-    const float x = place->second.x + place->second.z * static_cast<float>((stops - kLowestStop) / (kHighestStop - kLowestStop));
+    const float x = place->second.x + place->second.z * static_cast<float>((stops - kLowestStop) /
+                                                                           (kHighestStop - kLowestStop));
     return drag(x, y, x + numbers(action, 1, 1)[0], y), true;
   }
   if (word == "picture") return write_png(arguments[0], s.canvas->read()), true;
   if (word == "hold") return s.session->meter_once(v.metering_now()), frames_ = 1, true;
-  if (word == "camera") return s.camera = *find_camera(s.opened->rays.scene(), arguments[0]), frames_ = 1, true;
+  if (word == "camera")
+    return s.camera = *find_camera(s.opened->rays.scene(), arguments[0]), frames_ = 1, true;
   if (word == "eye") {
     const auto eye = numbers(action, 0, 3), target = numbers(action, 1, 3);
     const float yfov = s.camera.yfov;
@@ -140,10 +145,12 @@ bool Driver::perform(const Action& action) {
   }
   if (word == "wish") {
     const auto at = numbers(action, 0, 3);
-    const Vec3 position(at[0], at[1], at[2]), normal = at.size() >= 6 ? glm::normalize(Vec3(at[3], at[4], at[5])) : Vec3(0, 1, 0);
+    const Vec3 position(at[0], at[1], at[2]),
+        normal = at.size() >= 6 ? glm::normalize(Vec3(at[3], at[4], at[5])) : Vec3(0, 1, 0);
     PointMeter meter(s.opened->rays, {{position, normal, normal}}, ReceiverKind::plane);
     meter.pass(4096, {});
-    return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values), true;
+    return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values),
+           true;
   }
   if (word == "like") return v.seek_picture(arguments[0]), frames_ = 1, true;
   if (word == "seek") return v.seek(), frames_ = 1, true;

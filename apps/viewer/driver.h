@@ -22,8 +22,8 @@ class Driver {
   Viewer* viewer_;
   std::vector<Action> actions_;
   std::size_t at_ = 0;
-  int frames_ = 0;                     ///< to wait
-  double until_ = 0;                   ///< time to wait for
+  int frames_ = 0;    ///< to wait
+  double until_ = 0;  ///< time to wait for
   bool settling_ = false, shooting_ = false;
   std::vector<std::pair<float, float>> path_;  ///< that the mouse still has to go
   std::size_t path_at_ = 0;

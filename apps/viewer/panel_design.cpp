@@ -47,15 +47,16 @@ void Viewer::design_panel() {
   again |= ImGui::IsItemDeactivatedAfterEdit();
   if (again && plane.shown) measure();
   if (plane.shown && plane.light.samples > 0) {
-    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix));
+    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, plane.buried));
     figure("average lux", fmt::format("{:.0f}", s.average), true);
     figure("minimum", fmt::format("{:.0f}", s.minimum), false);
     figure("maximum", fmt::format("{:.0f}", s.maximum), false);
     figure("uniformity", fmt::format("{:.2f}", s.uniformity()), false);
     ImGui::PushFont(fonts().small);
-    ImGui::TextDisabled("%s", fmt::format("{} x {} points, {} paths each{}", plane.grid.columns, plane.grid.rows,
-                                          plane.light.samples, measuring_.running() ? ", measuring" : "")
-                                  .c_str());
+    ImGui::TextDisabled("%s",
+                        fmt::format("{} x {} points, {} paths each{}", plane.grid.columns, plane.grid.rows,
+                                    plane.light.samples, measuring_.running() ? ", measuring" : "")
+                            .c_str());
     ImGui::PopFont();
   }
 
@@ -79,7 +80,8 @@ void Viewer::design_panel() {
     ImGui::TextUnformatted(fmt::format("{}", i + 1).c_str());
     ImGui::SameLine(px(24));
     ImGui::SetNextItemWidth(0.4f * width);
-    if (ImGui::DragFloat("##target", &target, 2, 0, 1e6f, "%.0f lux")) goal.target = static_cast<double>(target);
+    if (ImGui::DragFloat("##target", &target, 2, 0, 1e6f, "%.0f lux"))
+      goal.target = static_cast<double>(target);
     ImGui::SameLine();
     ImGui::TextDisabled("%s", fmt::format("now {:.0f}", now).c_str());
     ImGui::SameLine(width - px(24));

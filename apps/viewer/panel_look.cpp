@@ -48,7 +48,10 @@ void Viewer::look_panel() {
   for (const ToneMapper& mapper : tone_mappers()) {
     const std::string name(mapper.name);
     const float wide = ImGui::CalcTextSize(name.c_str()).x + px(20);
-    if (used > 0 && used + wide < width) ImGui::SameLine(); else used = 0;
+    if (used > 0 && used + wide < width)
+      ImGui::SameLine();
+    else
+      used = 0;
     used += wide + ImGui::GetStyle().ItemSpacing.x;
     if (toggle(name.c_str(), name.c_str(), mood.tone == name, palette::kAccent, wide)) {
       mood.tone = name;
@@ -87,12 +90,13 @@ void Viewer::look_panel() {
 
   heading("Cameras");
   for (const Camera& camera : state_.opened->rays.scene().cameras)
-    if (ImGui::Selectable((camera.name + "##camera").c_str(), camera.name == state_.camera.name &&
-                                                                  camera.frame == state_.camera.frame))
+    if (ImGui::Selectable((camera.name + "##camera").c_str(),
+                          camera.name == state_.camera.name && camera.frame == state_.camera.frame))
       state_.camera = camera;
   auto fov = state_.camera.yfov * 180 / kPi;
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##fov", &fov, 10, 120, "field of view %.0f\u00b0")) state_.camera.yfov = fov * kPi / 180;
+  if (ImGui::SliderFloat("##fov", &fov, 10, 120, "field of view %.0f\u00b0"))
+    state_.camera.yfov = fov * kPi / 180;
   if (ImGui::Button("All in sight", {-1, 0}))
     state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
 }

@@ -14,8 +14,8 @@ namespace sconce::viewer {
 void Viewer::side_panel(ImVec2 at, ImVec2 size) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
+  constexpr ImGuiWindowFlags kFixed =
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus;
   ImGui::Begin("side", nullptr, kFixed | ImGuiWindowFlags_NoScrollWithMouse);
   if (ImGui::BeginTabBar("tabs")) {
     struct Tab {
@@ -92,7 +92,8 @@ void Viewer::mix_panel() {
   }
   for (const FaderFolder& folder : fader_folders(names, state_.search)) {
     const std::string title = fmt::format("{}  ({})", folder.name, folder.groups.size());
-    if (!folder.name.empty() && !ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) continue;
+    if (!folder.name.empty() && !ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+      continue;
     for (const std::size_t g : folder.groups) fader_row(g);
   }
 }
@@ -141,7 +142,8 @@ void Viewer::fader_row(std::size_t g) {
 
   const FaderMove move = fader_track("track", fader.gain, color, fader.on);
   state_.fader_places[group.name] = move.place;
-  if (move.moved) fader.gain = move.gain, fader.on = move.gain > 0, changed = true, gesture = "gain " + group.name;
+  if (move.moved)
+    fader.gain = move.gain, fader.on = move.gain > 0, changed = true, gesture = "gain " + group.name;
   if (!(fader.gain > 0)) fader.gain = 1;  // what switching on goes back to
   if (changed) session.change(mood, gesture);
   if (move.released) session.end_gesture();
@@ -149,8 +151,10 @@ void Viewer::fader_row(std::size_t g) {
   // In words.
   ImGui::PushFont(fonts().small);
   ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
-  std::string words = fader.on ? fmt::format("{:+.1f} EV  \u00d7{:.3g}", stops_of(fader.gain), fader.gain) : "off";
-  if (fader.on && group.lumens > 0) words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * mood.faders.master);
+  std::string words =
+      fader.on ? fmt::format("{:+.1f} EV  \u00d7{:.3g}", stops_of(fader.gain), fader.gain) : "off";
+  if (fader.on && group.lumens > 0)
+    words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * mood.faders.master);
   if (fader.color == Fader::Color::kelvin) words += fmt::format("  {:.0f} K", fader.kelvin);
   ImGui::TextUnformatted(words.c_str());
   ImGui::PopStyleColor();
@@ -187,8 +191,8 @@ void Viewer::color_popup(std::size_t g) {
   ImGui::SetNextItemWidth(px(290));
   if (fader.color == Fader::Color::kelvin) {
     auto kelvin = static_cast<float>(fader.kelvin);
-    if (ImGui::SliderFloat("##kelvin", &kelvin, static_cast<float>(kKelvinMin), static_cast<float>(kKelvinMax),
-                           "%.0f K", ImGuiSliderFlags_Logarithmic)) {
+    if (ImGui::SliderFloat("##kelvin", &kelvin, static_cast<float>(kKelvinMin),
+                           static_cast<float>(kKelvinMax), "%.0f K", ImGuiSliderFlags_Logarithmic)) {
       fader.kelvin = std::clamp(static_cast<double>(kelvin), kKelvinMin, kKelvinMax);
       changed = true;
     }

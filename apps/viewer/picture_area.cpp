@@ -13,7 +13,9 @@ namespace sconce::viewer {
 namespace {
 
 PictureParams params_of(ImVec2 size) {
-  return {.width = std::max(static_cast<int>(size.x), 1), .height = std::max(static_cast<int>(size.y), 1), .samples = 1};
+  return {.width = std::max(static_cast<int>(size.x), 1),
+          .height = std::max(static_cast<int>(size.y), 1),
+          .samples = 1};
 }
 
 /// A card over the picture.
@@ -37,8 +39,9 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::Begin("picture", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                   ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
   ImGui::InvisibleButton("canvas", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -46,8 +49,8 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   navigate();
   const PictureParams p = params_of(size);
   attempt([&] {
-    drawing_more_ |= state_.canvas->draw(
-        *state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()});
+    drawing_more_ |=
+        state_.canvas->draw(*state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()});
     if (state_.look == LookKind::reference && reference_ && traced_)
       state_.canvas->set_reference(reference_->picture(*traced_, state_.canvas->mix()), *state_.session);
   });
@@ -80,7 +83,8 @@ void Viewer::navigate() {
   const bool on_surface = state_.under && state_.under->surface;
   const Vec3 eye(state_.camera.frame[3]);
   if (ImGui::IsItemActivated()) {
-    const Vec3 ahead = Lens(state_.camera, p).direction({0.5f * state_.canvas_size.x, 0.5f * state_.canvas_size.y});
+    const Vec3 ahead =
+        Lens(state_.camera, p).direction({0.5f * state_.canvas_size.x, 0.5f * state_.canvas_size.y});
     state_.pivot = on_surface ? state_.under->position : eye + 0.3f * reach * ahead;
     if (io.KeyCtrl && on_surface && io.MouseDown[0]) {
       const Lens lens(state_.camera, p);
@@ -100,12 +104,14 @@ void Viewer::navigate() {
     if (io.MouseDown[2] || (io.MouseDown[0] && io.KeyShift))
       state_.camera = pan(state_.camera, pixel * Vec2(-drag.x, drag.y));
     else if (io.MouseDown[1])
-      state_.camera = look_around(state_.camera, state_.camera.yfov / state_.canvas_size.y * Vec2(drag.x, -drag.y));
+      state_.camera =
+          look_around(state_.camera, state_.camera.yfov / state_.canvas_size.y * Vec2(drag.x, -drag.y));
     else if (io.MouseDown[0])
       state_.camera = orbit(state_.camera, *state_.pivot, turn);
   }
   if (hovered && io.MouseWheel != 0)
-    state_.camera = approach(state_.camera, on_surface ? state_.under->position : eye - reach * Vec3(state_.camera.frame[2]),
+    state_.camera = approach(state_.camera,
+                             on_surface ? state_.under->position : eye - reach * Vec3(state_.camera.frame[2]),
                              0.12f * io.MouseWheel);
   if (io.WantTextInput || io.KeyCtrl) return;
   const auto held = [](const char* key) { return ImGui::IsKeyDown(key_of(key)) ? 1.0f : 0.0f; };
@@ -133,13 +139,13 @@ void Viewer::overlays() {
   const Plane& plane = state_.plane;
   if (plane.shown && plane.light.samples > 0) {
     const std::vector<float> lux = lux_of(plane.light, mix);
-    const LuxStatistics s = lux_statistics(lux);
+    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, plane.buried));
     const FalseColor scale = fitting_scale(std::max(s.average, 1.0) / 2, false);
     std::size_t i = 0;
     for (int row = 0; row < plane.grid.rows; ++row)
       for (int column = 0; column < plane.grid.columns; ++column, ++i) {
         const auto spot = project(plane.grid.point(column, row));
-        if (!spot) continue;
+        if (!spot || plane.buried[i] != 0) continue;
         const Rgb c = false_color(scale.place(lux[i]));
         const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
         draw.AddCircleFilled(*spot, px(4.5f), IM_COL32(0, 0, 0, 150), 16);
@@ -167,7 +173,8 @@ void Viewer::overlays() {
     for (int i = 0; i < kSteps; ++i) {
       const Rgb c = false_color((static_cast<float>(i) + 0.5f) / kSteps);
       const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
-      const float y0 = y + tall * (1 - static_cast<float>(i + 1) / kSteps), y1 = y + tall * (1 - static_cast<float>(i) / kSteps);
+      const float y0 = y + tall * (1 - static_cast<float>(i + 1) / kSteps),
+                  y1 = y + tall * (1 - static_cast<float>(i) / kSteps);
       draw.AddRectFilled({x, y0}, {x + bar, y1 + 0.5f}, IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
     }
     for (const float tick : legend_ticks(scale)) {
@@ -185,7 +192,8 @@ void Viewer::overlays() {
       total += r.group_lux[g];
       if (r.group_lux[g] > 0) order.push_back(g);
     }
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return r.group_lux[a] > r.group_lux[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return r.group_lux[a] > r.group_lux[b]; });
     order.resize(std::min<std::size_t>(order.size(), 6));
     const ImVec2 box(px(236), px(84) + px(19) * static_cast<float>(order.size()));
     const ImVec2 corner(at.x + px(12), at.y + size.y - box.y - px(12));
@@ -195,11 +203,13 @@ void Viewer::overlays() {
     const std::string lux = fmt::format("{:.{}f}", luminance(r.illuminance), total < 10 ? 1 : 0);
     text(draw, fonts().large, {x, y}, palette::kText, lux);
     text(draw, fonts().small, {x + width_of(fonts().large, lux) + px(6), y + px(16)}, palette::kDim, "lux");
-    text(draw, fonts().small, {x + px(112), y + px(6)}, palette::kText, fmt::format("{:.3g} cd/m\u00b2", r.luminance));
+    text(draw, fonts().small, {x + px(112), y + px(6)}, palette::kText,
+         fmt::format("{:.3g} cd/m\u00b2", r.luminance));
     text(draw, fonts().small, {x + px(112), y + px(22)}, palette::kDim,
          fmt::format("albedo {:.2f}", luminance(r.albedo)));
     y += px(42);
-    text(draw, fonts().small, {x, y}, palette::kDim, r.material.empty() ? r.object : r.object + " \u00b7 " + r.material);
+    text(draw, fonts().small, {x, y}, palette::kDim,
+         r.material.empty() ? r.object : r.object + " \u00b7 " + r.material);
     y += px(22);
     for (const std::size_t g : order) {
       const float share = r.group_lux[g] / std::max(total, 1e-9f);
@@ -207,7 +217,8 @@ void Viewer::overlays() {
                          chip(state_.session->groups()[g].color * mix.weights[g]), px(1));
       text(draw, fonts().small, {x, y - px(2)}, palette::kText, state_.session->groups()[g].name);
       const std::string percent = fmt::format("{:.0f} %", 100 * share);
-      text(draw, fonts().small, {x + px(208) - width_of(fonts().small, percent), y - px(2)}, palette::kDim, percent);
+      text(draw, fonts().small, {x + px(208) - width_of(fonts().small, percent), y - px(2)}, palette::kDim,
+           percent);
       y += px(19);
     }
   }

@@ -23,7 +23,8 @@ ImFont* load(std::initializer_list<const char*> files, float size) {
   static constexpr ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2027, 0x2190, 0x2195, 0x2212, 0x2212, 0};
   for (const char* file : files) {
     std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) return io.Fonts->AddFontFromFileTTF(file, size, nullptr, ranges);
+    if (std::filesystem::exists(file, ignored))
+      return io.Fonts->AddFontFromFileTTF(file, size, nullptr, ranges);
   }
   return io.Fonts->AddFontDefault();
 }

@@ -104,9 +104,8 @@ void Viewer::open(const fs::path& file) {
   fs::path whole = file.has_filename() ? file : file.parent_path();
   state_.file = whole;
   if (fs::is_directory(whole)) {
-    opening_.start([whole](const Progress&, const auto& publish) {
-      publish(std::make_shared<const Opened>(whole));
-    });
+    opening_.start(
+        [whole](const Progress&, const auto& publish) { publish(std::make_shared<const Opened>(whole)); });
   } else {
     if (!request_.bake) throw Error(file.string(), "is no package");
     baking_.start([this, whole](const Progress& progress, const auto& publish) {
@@ -121,15 +120,14 @@ void Viewer::take_results() {
   if (const auto package = baking_.take()) {
     own_folder_ = package->parent_path();
     const fs::path path = *package;
-    opening_.start([path](const Progress&, const auto& publish) {
-      publish(std::make_shared<const Opened>(path));
-    });
+    opening_.start(
+        [path](const Progress&, const auto& publish) { publish(std::make_shared<const Opened>(path)); });
   }
   if (auto opened = opening_.take()) attempt([&] { show(*opened); });
   if (auto light = measuring_.take()) state_.plane.light = std::move(*light);
   if (auto light = tracing_.take()) traced_ = std::move(*light);
-  for (const std::string& problem : {opening_.take_problem(), baking_.take_problem(),
-                                     measuring_.take_problem(), tracing_.take_problem()})
+  for (const std::string& problem :
+       {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem()})
     if (!problem.empty()) note(problem);
 }
 
@@ -159,8 +157,8 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   const Metering metering = metering_now();
   state_.session->meter_once(metering);
   state_.session->forget_history();
-  for (const auto& [kind, typical] : {std::pair{LookKind::lux, 8 * metering.log_mean},
-                                      {LookKind::luminance, metering.log_mean}})
+  for (const auto& [kind, typical] :
+       {std::pair{LookKind::lux, 8 * metering.log_mean}, {LookKind::luminance, metering.log_mean}})
     state_.scales[kind] = fitting_scale(typical, false);
   state_.scales[LookKind::noise] = {.low = 0, .high = 20};
 }
@@ -191,14 +189,15 @@ void Viewer::measure() {
   plane.shown = true;
   plane.grid = horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
   plane.light = {};
-  measuring_.start([opened = state_.opened, points = plane.grid.points()](const Progress& progress,
-                                                                          const auto& publish) {
-    PointMeter meter(opened->rays, points, ReceiverKind::plane);
-    for (int samples = 64; samples <= 2048; samples *= 2) {
-      meter.pass(samples, progress);
-      publish(meter.light());
-    }
-  });
+  plane.buried = buried(state_.opened->rays, plane.grid.points());
+  measuring_.start(
+      [opened = state_.opened, points = plane.grid.points()](const Progress& progress, const auto& publish) {
+        PointMeter meter(opened->rays, points, ReceiverKind::plane);
+        for (int samples = 64; samples <= 2048; samples *= 2) {
+          meter.pass(samples, progress);
+          publish(meter.light());
+        }
+      });
 }
 
 void Viewer::add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux) {
@@ -227,9 +226,9 @@ void Viewer::seek_picture(const fs::path& file) {
   Image target = linear ? read_image(file) : Image();
   if (!linear) {
     const std::string bytes = read_file(file);
-    target = from_display(decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()},
-                                        file.string()),
-                          0.18f / session.exposure(state_.canvas->metering()).scale);
+    target = from_display(
+        decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file.string()),
+        0.18f / session.exposure(state_.canvas->metering()).scale);
   }
   const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
   Wishes wishes(unit.size());

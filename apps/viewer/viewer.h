@@ -21,10 +21,10 @@
 namespace sconce::viewer {
 
 struct ViewRequest {
-  std::filesystem::path file;    ///< package; empty = none yet
-  std::vector<Action> script;    ///< then the window closes, unless it is empty
-  int width = 0, height = 0;     ///< of the window; 0 = as it was the last time
-  bool forget = false;           ///< neither reads nor writes what is remembered
+  std::filesystem::path file;  ///< package; empty = none yet
+  std::vector<Action> script;  ///< then the window closes, unless it is empty
+  int width = 0, height = 0;   ///< of the window; 0 = as it was the last time
+  bool forget = false;         ///< neither reads nor writes what is remembered
   /// Bakes a scene into packages, coarse ones first; called beside the window. Each package published stands
   /// until the next is.
   std::function<void(const std::filesystem::path& scene, const Progress&,
@@ -37,6 +37,7 @@ struct Plane {
   bool shown = false;
   float height = 0.75f, spacing = 0.5f;
   MeasuringPlane grid;
+  std::vector<uint8_t> buried;  ///< per point: inside of furniture
   MeasuredLight light;
 };
 
@@ -48,7 +49,7 @@ struct Goal {
 };
 
 struct State {
-  std::filesystem::path file;  ///< as it was asked for; empty = none
+  std::filesystem::path file;     ///< as it was asked for; empty = none
   std::filesystem::path package;  ///< that is shown; another one where a scene is baked
   std::shared_ptr<const Opened> opened;
   std::unique_ptr<Canvas> canvas;
@@ -61,7 +62,7 @@ struct State {
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
   std::vector<Goal> goals;
-  std::string sought;  ///< what goal seeking found, in words
+  std::string sought;                                ///< what goal seeking found, in words
   std::deque<std::pair<std::string, double>> notes;  ///< lines that fade, with the time they end
   ImVec2 canvas_at{0, 0}, canvas_size{1, 1};
   std::map<std::string, ImVec4> fader_places;  ///< for scripts: x, y, width, height of each track
@@ -132,7 +133,6 @@ class Viewer {
   std::optional<Hands> hands_;
   std::filesystem::path own_folder_;  ///< of what is baked; goes when the window does
 };
-
 
 /// Opens the window and returns when it is closed, or when the script has ended.
 /// @throws Error: no display, old OpenGL, and in a script whatever goes wrong

@@ -27,7 +27,8 @@ FaderMove fader_track(const char* id, double gain, ImU32 color, bool on) {
   if (hovered && ImGui::IsMouseDoubleClicked(0)) {
     set(0);
   } else if (active && io.KeyShift) {
-    if (io.MouseDelta.x != 0) set(stops_of(gain) + 0.1 * range * static_cast<double>(io.MouseDelta.x / size.x));
+    if (io.MouseDelta.x != 0)
+      set(stops_of(gain) + 0.1 * range * static_cast<double>(io.MouseDelta.x / size.x));
   } else if (active && (ImGui::IsItemActivated() || io.MouseDelta.x != 0)) {
     double stops = kLowestStop + range * static_cast<double>((io.MousePos.x - at.x) / size.x);
     if (std::abs(stops) < 0.12) stops = 0;  // as baked holds the hand a little
@@ -89,7 +90,8 @@ bool color_chip(const char* id, ImU32 color, float width) {
   const bool pressed = ImGui::InvisibleButton(id, {width, height});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float inset = px(4);
-  draw.AddRectFilled({at.x + inset, at.y + inset}, {at.x + width - inset, at.y + height - inset}, color, px(4));
+  draw.AddRectFilled({at.x + inset, at.y + inset}, {at.x + width - inset, at.y + height - inset}, color,
+                     px(4));
   if (ImGui::IsItemHovered())
     draw.AddRect({at.x + inset, at.y + inset}, {at.x + width - inset, at.y + height - inset},
                  IM_COL32(255, 255, 255, 200), px(4), 0, px(1.5f));
@@ -101,11 +103,14 @@ void kelvin_ramp(ImVec2 size) {
   constexpr int kSteps = 48;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto color = [](int i) {
-    return chip(kelvin_color(kKelvinMin * std::pow(kKelvinMax / kKelvinMin, double{1} * i / kSteps) * 0.9999 + 0.1));
+    return chip(
+        kelvin_color(kKelvinMin * std::pow(kKelvinMax / kKelvinMin, double{1} * i / kSteps) * 0.9999 + 0.1));
   };
   for (int i = 0; i < kSteps; ++i) {
-    const float x0 = at.x + size.x * static_cast<float>(i) / kSteps, x1 = at.x + size.x * static_cast<float>(i + 1) / kSteps;
-    draw.AddRectFilledMultiColor({x0, at.y}, {x1, at.y + size.y}, color(i), color(i + 1), color(i + 1), color(i));
+    const float x0 = at.x + size.x * static_cast<float>(i) / kSteps,
+                x1 = at.x + size.x * static_cast<float>(i + 1) / kSteps;
+    draw.AddRectFilledMultiColor({x0, at.y}, {x1, at.y + size.y}, color(i), color(i + 1), color(i + 1),
+                                 color(i));
   }
   ImGui::Dummy(size);
 }

@@ -96,16 +96,16 @@ Context::Context(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 std::unique_ptr<Context> Context::adopt(bool debug) {
   if (epoxy_gl_version() < 45)
-    throw Error("OpenGL", fmt::format("this window has OpenGL {}.{}", epoxy_gl_version() / 10,
-                                      epoxy_gl_version() % 10),
+    throw Error("OpenGL",
+                fmt::format("this window has OpenGL {}.{}", epoxy_gl_version() / 10, epoxy_gl_version() % 10),
                 "4.5 or newer");
   auto state = std::make_unique<State>();
   if (debug) explain_errors(state->complaint);
   pack_tightly();
   // Mesa's names for drawing by the processor; GLX does not tell.
   static const std::regex software("llvmpipe|softpipe|swrast", std::regex::icase);
-  state->capabilities = ask(std::regex_search(
-      reinterpret_cast<const char*>(glGetString(GL_RENDERER)), software));
+  state->capabilities =
+      ask(std::regex_search(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), software));
   return std::unique_ptr<Context>(new Context(std::move(state)));
 }
 

@@ -75,9 +75,9 @@ void DisplayPass::tone(const Texture& sum, int samples, const Exposure& exposure
 void DisplayPass::false_color(const Texture& sum, int samples, float scale, const FalseColor& colors) {
   colors.check();
   if (!false_color_)
-    false_color_ = std::make_unique<Program>("false colours", whole_target_vertex(),
-                                             std::string(kVersion) + false_color_glsl() +
-                                                 std::string(kFalseColor));
+    false_color_ =
+        std::make_unique<Program>("false colours", whole_target_vertex(),
+                                  std::string(kVersion) + false_color_glsl() + std::string(kFalseColor));
   std::vector<Rgb> ticks;
   if (colors.lines)
     for (const float tick : legend_ticks(colors)) ticks.emplace_back(tick);

@@ -12,7 +12,7 @@ namespace sconce {
 
 namespace {
 
-constexpr int kFitSamples = 8;  // rays per pixel
+constexpr int kFitSamples = 16;  // rays per pixel
 
 /// Means of blocks, `factor` pixels each way; what does not fill a block is left out.
 Image shrunk(const Image& image, int factor) {
@@ -40,31 +40,36 @@ std::vector<Image> decoded(const EncodedLayers& layers, std::size_t group) {
   throw Error({}, "a group has no layer");
 }
 
-/// Pictures of every group alone at unit weight, and last of what shines in no group.
-std::vector<Image> group_pictures(const View& view, const EncodedLayers& layers, const Camera& camera,
-                                  const PictureParams& params, const Progress& progress) {
-  std::vector<CameraHits> hits;
-  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
+/// Whether a lamp or the sky is seen in a pixel or beside it: edges of what is brightest say most about where
+/// the rays of another picture went.
+std::vector<uint8_t> beside_lamps(const std::vector<CameraHits>& hits) {
+  const int width = hits.front().width, height = hits.front().height;
+  std::vector<uint8_t> found(hits.front().pixels.size(), 0);
+  for (const CameraHits& sample : hits)
+    for (int y = 0; y < height; ++y)
+      sample.for_each_shine(y, [&](const CameraHits::Shine& shine) {
+        const int x = static_cast<int>(shine.x);
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
+            found[static_cast<std::size_t>(j * width + i)] = 1;
+      });
+  return found;
+}
+
+/// Pictures of every group alone at unit weight, of surfaces only.
+std::vector<Image> group_pictures(const std::vector<CameraHits>& hits, const EncodedLayers& layers,
+                                  const PictureParams& params) {
   std::vector<Image> pictures;
   const float share = 1 / static_cast<float>(params.samples);
-  for (std::size_t g = 0; g <= layers.colors.size(); ++g) {
-    const bool grouped = g < layers.colors.size();
-    const std::vector<Image> pages = grouped ? decoded(layers, g) : std::vector<Image>{};
+  for (std::size_t g = 0; g < layers.colors.size(); ++g) {
+    const std::vector<Image> pages = decoded(layers, g);
     Image& picture = pictures.emplace_back(Image::rgb(params.width, params.height));
     parallel_for(static_cast<std::size_t>(params.height), 4, [&](std::size_t row) {
       const int y = static_cast<int>(row);
       std::vector<float> rgb(3 * static_cast<std::size_t>(params.width) + 1);
       for (const CameraHits& sample : hits) {
-        if (grouped) {
-          shade_row(sample, y, pages, rgb.data());
-          for (std::size_t i = 0; i + 1 < rgb.size(); ++i) picture.at(0, y)[i] += share * rgb[i];
-        }
-        sample.for_each_shine(y, [&](const CameraHits::Shine& shine) {
-          if (grouped ? shine.group.valid() && shine.group.value == g : !shine.group.valid()) {
-            const int x = static_cast<int>(shine.x);
-            picture.set_rgb(x, y, picture.rgb_at(x, y) + share * shine.radiance);
-          }
-        });
+        shade_row(sample, y, pages, rgb.data());
+        for (std::size_t i = 0; i + 1 < rgb.size(); ++i) picture.at(0, y)[i] += share * rgb[i];
       }
     });
   }
@@ -100,12 +105,16 @@ void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers,
     }
   mean = std::exp(mean);
   if (!(mean > 1.1e-4)) throw Error({}, "the picture to look like is black");
-  const std::vector<Image> parts = group_pictures(
-      view, layers, camera, {.width = wanted.width, .height = wanted.height, .samples = kFitSamples}, progress);
+  const PictureParams params{.width = wanted.width, .height = wanted.height, .samples = kFitSamples};
+  std::vector<CameraHits> hits;
+  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
+  const std::vector<Image> parts = group_pictures(hits, layers, params);
+  const std::vector<uint8_t> left_out = beside_lamps(hits);
   std::vector<double> row(unit.size());
   for (int y = 0; y < wanted.height; ++y)
     for (int x = 0; x < wanted.width; ++x) {
-      const Rgb goal = wanted.rgb_at(x, y) - parts.back().rgb_at(x, y);
+      if (left_out[static_cast<std::size_t>(y * wanted.width + x)] != 0) continue;
+      const Rgb goal = wanted.rgb_at(x, y);
       const double scale = static_cast<double>(luminance(wanted.rgb_at(x, y))) + mean;
       for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
         for (std::size_t g = 0; g < unit.size(); ++g)
@@ -122,7 +131,8 @@ Image from_display(const Image8& picture, float grey) {
   for (std::size_t i = 0; i < out.pixels(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       out.data[3 * i + c] =
-          scale * srgb_to_linear(static_cast<float>(picture.data[i * channels + (channels < 3 ? 0 : c)]) / 255.0f);
+          scale *
+          srgb_to_linear(static_cast<float>(picture.data[i * channels + (channels < 3 ? 0 : c)]) / 255.0f);
   return out;
 }
 

@@ -19,7 +19,7 @@ std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& f
 void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target);
 
 /// A picture wished for, in cd/m2; every pixel counts relative to its own luminance and the picture's mean.
-/// Pictures wider than kFitWidth are box-filtered to that.
+/// Pictures wider than kFitWidth are box-filtered to that. Pixels at visible lamps and the sky are left out.
 /// @param camera  that the picture was taken with
 /// @throws Error where the picture has no R, G and B, or is black
 void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,

@@ -9,7 +9,17 @@
 
 namespace sconce {
 
-enum class LookKind : uint8_t { picture, lux, luminance, lightmap, noise, albedo, normals, charts, reference };
+enum class LookKind : uint8_t {
+  picture,
+  lux,
+  luminance,
+  lightmap,
+  noise,
+  albedo,
+  normals,
+  charts,
+  reference
+};
 
 struct LookRow {
   LookKind kind;

@@ -71,8 +71,8 @@ void PointMeter::pass(int samples, const Progress& progress) {
   BakeParams params;
   params.samples = samples;
   params.seed = ++passes_;
-  const auto solver = find_solver("path").prepare(
-      {view.scene(), view.world(), view.tracer(), world_->lamps}, params, progress);
+  const auto solver = find_solver("path").prepare({view.scene(), view.world(), view.tracer(), world_->lamps},
+                                                  params, progress);
   std::vector<Rgb> fresh(light_.values.size());
   parallel_for(points_.size(), 16, [&](std::size_t i) {
     progress.check();
@@ -95,11 +95,20 @@ LuxStatistics lux_statistics(std::span<const float> lux) {
           static_cast<double>(*high)};
 }
 
-std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix) {
+std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix, std::span<const uint8_t> left_out) {
   std::vector<float> lux;
   for (std::size_t point = 0; point < light.points(); ++point)
-    lux.push_back(luminance(light.mixed(point, mix)));
+    if (left_out.empty() || left_out[point] == 0) lux.push_back(luminance(light.mixed(point, mix)));
   return lux;
+}
+
+std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points) {
+  std::vector<uint8_t> inside;
+  for (const SurfacePoint& point : points) {
+    const Hit hit = view.tracer().closest({point.position, point.geometric_normal});
+    inside.push_back(hit && hit.back ? 1 : 0);
+  }
+  return inside;
 }
 
 }  // namespace sconce

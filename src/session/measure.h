@@ -22,6 +22,9 @@ struct MeasuringPlane {
   std::vector<SurfacePoint> points() const;  ///< row by row
 };
 
+/// Which points lie inside of something: straight up, the first surface is met from behind.
+std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points);
+
 /// Horizontal, facing up, over all of the bounds but half a metre at each side (a tenth where that is less).
 /// @param height  above the lowest floor, metres @param spacing  of points, metres, at most
 MeasuringPlane horizontal_plane(const Bounds& bounds, float height, float spacing);
@@ -63,6 +66,8 @@ struct LuxStatistics {
 };
 LuxStatistics lux_statistics(std::span<const float> lux);
 /// Luminance of the mix at every point.
-std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix);
+/// @param left_out  per point: 1 = not given; may be empty
+std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix,
+                          std::span<const uint8_t> left_out = {});
 
 }  // namespace sconce

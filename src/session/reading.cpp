@@ -22,8 +22,9 @@ std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv) {
     image.encoding->decode(image, first, rows, decoded.data());
     const auto between = [&](std::size_t channel) {
       const auto value = [&](int column, int row) {
-        return decoded[channels * (static_cast<std::size_t>(row - first) * static_cast<std::size_t>(image.width) +
-                                   static_cast<std::size_t>(column)) +
+        return decoded[channels *
+                           (static_cast<std::size_t>(row - first) * static_cast<std::size_t>(image.width) +
+                            static_cast<std::size_t>(column)) +
                        channel];
       };
       const float top = (1 - x.fraction) * value(x.low, y.low) + x.fraction * value(x1, y.low);

@@ -16,9 +16,9 @@ struct Reading {
   float distance = 0;  ///< metres from the eye
   std::string object, material;
   Rgb albedo;
-  Rgb illuminance;                ///< lux
-  float luminance = 0;            ///< cd/m2, with what shines by itself
-  std::vector<float> group_lux;   ///< of each group, weighted; empty where no light is kept
+  Rgb illuminance;               ///< lux
+  float luminance = 0;           ///< cd/m2, with what shines by itself
+  std::vector<float> group_lux;  ///< of each group, weighted; empty where no light is kept
 };
 
 /// @param at  in pixels from the top left

@@ -34,9 +34,8 @@ std::vector<FaderFolder> fader_folders(std::span<const std::string> names, std::
     std::string folder = slash == std::string::npos ? "" : names[g].substr(0, slash);
     if (const std::string word = first_word(names[g]); folder.empty() && !word.empty())
       if (const auto found = alike.find(word); found != alike.end() && found->second >= 3) folder = word;
-    auto place = std::find_if(folders.begin(), folders.end(), [&](const FaderFolder& f) {
-      return !folder.empty() && f.name == folder;
-    });
+    auto place = std::find_if(folders.begin(), folders.end(),
+                              [&](const FaderFolder& f) { return !folder.empty() && f.name == folder; });
     if (place == folders.end()) {
       if (folder.empty() && !folders.empty() && folders.back().name.empty())
         place = folders.end() - 1;

@@ -60,8 +60,7 @@ Mood to_mood(std::span<const GroupInfo> groups, const Preset& preset, const Mood
 }
 
 Session::Session(std::vector<GroupInfo> groups)
-    : groups_(std::move(groups)),
-      history_(Mood{.faders = {.groups = std::vector<Fader>(groups_.size())}}) {}
+    : groups_(std::move(groups)), history_(Mood{.faders = {.groups = std::vector<Fader>(groups_.size())}}) {}
 
 void Session::change(Mood mood, const std::string& gesture) {
   stop_fade();

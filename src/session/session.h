@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <optional>
 
+#include "mix/mix.h"
 #include "session/fader.h"
 #include "session/history.h"
 #include "session/script.h"
 #include "tone/exposure.h"
-#include "mix/mix.h"
 
 namespace sconce {
 

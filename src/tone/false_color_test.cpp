@@ -42,8 +42,9 @@ TEST(FalseColor, LinesLieWhereTicksAre) {
   const Image8 lined = false_color(ramp, {.low = 0, .high = 100, .lines = true}),
                plain = false_color(ramp, {.low = 0, .high = 100});
   for (int x = 0; x < 99; ++x)
-    EXPECT_EQ(lined.data[static_cast<std::size_t>(3 * x) + 2] != plain.data[static_cast<std::size_t>(3 * x) + 2],
-              x % 20 == 19)
+    EXPECT_EQ(
+        lined.data[static_cast<std::size_t>(3 * x) + 2] != plain.data[static_cast<std::size_t>(3 * x) + 2],
+        x % 20 == 19)
         << x;
 }
 

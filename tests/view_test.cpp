@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window, driven by scripts on a display of its own (xvfb-run); its pictures against the CPU's.
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "image/io.h"
+#include "mix/preset.h"
+#include "package/test_package.h"
+#include "process.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+namespace {
+
+class ViewTest : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void bake() {
+    const auto outcome =
+        test::run_sconce({"bake", (fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb").string(), "-o",
+                          path("x.sconce"), "--atlas", "128", "--samples", "8", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  test::Outcome view(const std::string& script, const std::string& input = "x.sconce") {
+    folder_.write("script.txt", script);
+    return test::run_sconce({"view", path(input), "--script", path("script.txt"), "--size", "900x560"},
+                            "timeout 100 xvfb-run -a -s '-screen 0 900x560x24'");
+  }
+  Image8 png(const std::string& name) const {
+    const std::string bytes = read_file(path(name));
+    return decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, name, 3);
+  }
+  static double mean_difference(const Image8& a, const Image8& b) {
+    EXPECT_EQ(a.data.size(), b.data.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(a.data.size(), b.data.size()); ++i)
+      sum += std::abs(int{a.data[i]} - int{b.data[i]});
+    return sum / static_cast<double>(a.data.size());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
+  bake();
+  const auto outcome =
+      view("set window=0.3 mirror=4000K,+1ev shower=off\nev100 8\ncamera tub\nsettle\npicture " +
+           path("window.png") + "\nlook lux\nscale 0 500\nlines on\nsettle\npicture " + path("lux.png") +
+           "\nscreenshot " + path("all.png") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Image8 shown = png("window.png");
+  const auto rendered = test::run_sconce(
+      {"render", path("x.sconce"), "window=0.3", "mirror=4000K,+1ev", "shower=off", "--ev100", "8",
+       "--camera", "tub", "--device", "cpu", "--size",
+       std::to_string(shown.width) + "x" + std::to_string(shown.height), "-o", path("cpu.png")});
+  ASSERT_EQ(rendered.code, 0) << rendered.err;
+  EXPECT_LE(mean_difference(shown, png("cpu.png")), 2);
+  EXPECT_GT(mean_difference(shown, png("lux.png")), 20);
+  EXPECT_EQ(png("all.png").width, 900);
+}
+
+TEST_F(ViewTest, HandsMoveFadersAndKeysTakeThemBack) {
+  bake();
+  const auto outcome = view("settle\npull ceiling -60\nframes 3\nsave " + path("pulled.toml") +
+                            "\nkey ctrl+z\nframes 3\nsave " + path("undone.toml") + "\nsolo tub\n");
+  EXPECT_EQ(outcome.code, 2);  // the room has a group `shower`, and a camera `tub`
+  EXPECT_NE(outcome.err.find("unknown light group 'tub'"), std::string::npos) << outcome.err;
+  const auto setting = [&](const std::string& file) { return read_preset(path(file)).assignments.front(); };
+  EXPECT_EQ(setting("undone.toml"), "ceiling=on");
+  ASSERT_TRUE(setting("pulled.toml").starts_with("ceiling=0.")) << setting("pulled.toml");
+}
+
+TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
+  bake();
+  folder_.write("mood.toml", "others = \"off\"\n[mix]\nmirror = \"2700K\"\n");
+  const auto outcome = view("settle\nkeep a\ndrop " + path("mood.toml") + "\nwait 1.2\nsettle\nsave " +
+                            path("now.toml") + "\nrecall a 0.2\nsettle\nsave " + path("before.toml") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read_preset(path("now.toml")).assignments,
+            (std::vector<std::string>{"ceiling=off", "mirror=on,2700K", "shower=off", "window=off"}));
+  EXPECT_EQ(read_preset(path("before.toml")).assignments[3], "window=on");
+}
+
+TEST_F(ViewTest, GoalsAreReached) {
+  bake();
+  const auto fitted =
+      test::run_sconce({"fit", path("x.sconce"), "--lux", "1,0.8,1=250", "-o", path("fit.toml"), "--json"});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("\"lux\": 2"), std::string::npos) << fitted.out;  // 24x to 25x
+  EXPECT_EQ(read_preset(path("fit.toml")).assignments.size(), 4u);
+  EXPECT_EQ(test::run_sconce({"fit", path("x.sconce")}).code, 2);
+  EXPECT_EQ(test::run_sconce({"fit", path("x.sconce"), "--lux", "1,2=3"}).code, 2);
+}
+
+TEST_F(ViewTest, BadInputIsOneLine) {
+  const auto no_display = test::run_sconce({"view"}, "env -u DISPLAY -u WAYLAND_DISPLAY");
+  EXPECT_EQ(no_display.code, 1);
+  EXPECT_NE(no_display.err.find("xvfb-run"), std::string::npos) << no_display.err;
+  write_package(folder_ / "x.sconce", test_package(1, 1, 8, 8));
+  write_file(folder_ / "x.sconce/scene.glb", "damaged");
+  const auto damaged = view("settle\npicture " + path("p.png") + "\n");
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_NE(damaged.err.find("scene.glb"), std::string::npos) << damaged.err;
+  EXPECT_EQ(view("fly away\n").code, 2);
+}
+
+}  // namespace
+}  // namespace sconce
