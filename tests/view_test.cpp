@@ -19,7 +19,7 @@ class ViewTest : public testing::Test {
   void bake() {
     const auto outcome =
         test::run_sconce({"bake", (fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb").string(), "-o",
-                          path("x.sconce"), "--atlas", "128", "--samples", "8", "--quiet"});
+                          path("x.sconce"), "--atlas", "256", "--samples", "8", "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   test::Outcome view(const std::string& script, const std::string& input = "x.sconce") {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/test_folder.h"
+#include "scene/lens.h"
 #include "session/motion.h"
 #include "session/remembered.h"
 #include "session/search.h"
