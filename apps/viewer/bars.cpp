@@ -41,7 +41,7 @@ constexpr Key kKeys[] = {{"Left drag", "turn around what is under the pointer"},
                          {"I", "reading under the pointer"},
                          {"Tab", "picture alone"},
                          {"P or F12", "write the picture"},
-                         {"Ctrl S", "write a preset; of a scene, Save package keeps the bake"},
+                         {"Ctrl S", "write a preset"},
                          {"F1", "this help"}};
 
 }  // namespace

@@ -35,13 +35,16 @@ int band(float v) {
   return count;
 }
 
+bool line_between(float a, float b) {
+  return abs(a - b) <= 0.15 * max(a, b) && band(a) != band(b);
+}
+
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(sum, 0) - 1;
   float v = value(at), inside = v > low ? v : low;
   vec3 code = false_color(decades ? log(inside / low) / log(high / low) : (inside - low) / (high - low));
-  int here = tick_count > 0 ? band(v) : 0;
-  if (tick_count > 0 && (here != band(value(min(at + ivec2(1, 0), last))) ||
-                         here != band(value(min(at + ivec2(0, 1), last)))))
+  if (tick_count > 0 && (line_between(v, value(min(at + ivec2(1, 0), last))) ||
+                         line_between(v, value(min(at + ivec2(0, 1), last)))))
     code *= 0.25;
   color = vec4(code, 1.0);
 }

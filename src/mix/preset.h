@@ -17,7 +17,7 @@
 namespace sconce {
 
 struct Preset {
-  std::vector<std::string> assignments;        ///< "GROUP=SETTING" in the file's order
+  std::vector<std::string> assignments;               ///< "GROUP=SETTING" in the file's order
   std::string others, exposure, ev100, tone, camera;  ///< empty = not given
 };
 

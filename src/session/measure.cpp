@@ -105,8 +105,14 @@ std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix, std::s
 std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points) {
   std::vector<uint8_t> inside;
   for (const SurfacePoint& point : points) {
-    const Hit hit = view.tracer().closest({point.position, point.geometric_normal});
-    inside.push_back(hit && hit.back ? 1 : 0);
+    int directions = 0, backs = 0;
+    for (int i = 0; i < 27; ++i) {
+      const Vec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (way == Vec3(0)) continue;
+      const Hit hit = view.tracer().closest({point.position, glm::normalize(way)});
+      ++directions, backs += hit && hit.back ? 1 : 0;
+    }
+    inside.push_back(2 * backs > directions ? 1 : 0);
   }
   return inside;
 }

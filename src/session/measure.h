@@ -22,7 +22,7 @@ struct MeasuringPlane {
   std::vector<SurfacePoint> points() const;  ///< row by row
 };
 
-/// Which points lie inside of something: straight up, the first surface is met from behind.
+/// Which points lie inside of something: in most of 26 directions the first surface is met from behind.
 std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points);
 
 /// Horizontal, facing up, over all of the bounds but half a metre at each side (a tenth where that is less).

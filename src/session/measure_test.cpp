@@ -124,8 +124,7 @@ TEST_F(Measured, NoiseAddsInSquares) {
   const auto opened = open(2);
   const MixSpec one{{Rgb(1), Rgb(0)}};
   const std::vector<Image> noise = mixed_noise(*opened, one);
-  for (const float v : noise[0].data)
-    ASSERT_NEAR(v, 25, 0.01f);
+  for (const float v : noise[0].data) ASSERT_NEAR(v, 25, 0.01f);
 }
 
 }  // namespace

@@ -35,6 +35,12 @@ std::size_t band(const std::vector<float>& ticks, float value) {
   return static_cast<std::size_t>(std::upper_bound(ticks.begin(), ticks.end(), value) - ticks.begin());
 }
 
+/// Where values leap, an edge of something lies between, and no line.
+bool line_between(const std::vector<float>& ticks, float a, float b) {
+  constexpr float kLeap = 0.15f;
+  return std::abs(a - b) <= kLeap * std::max(a, b) && band(ticks, a) != band(ticks, b);
+}
+
 }  // namespace
 
 void FalseColor::check() const {
@@ -69,7 +75,8 @@ std::vector<float> legend_ticks(const FalseColor& scale) {
         step *= round;
         break;
       }
-    for (double i = std::ceil(low / step - 1e-6); i * step <= high * (1 + 1e-6); ++i) add(i * step);
+    for (double i = std::max(0.0, std::ceil(low / step - 1e-6)); i * step <= high * (1 + 1e-6); ++i)
+      add(i * step);
   }
   ticks.resize(std::min(ticks.size(), kMostTicks));
   return ticks;
@@ -103,8 +110,8 @@ Image8 false_color(const Image& values, const FalseColor& scale) {
     for (int x = 0; x < values.width; ++x) {
       const float v = value(x, y);
       Rgb code = false_color(scale.place(v));
-      if (scale.lines && (band(ticks, v) != band(ticks, value(std::min(x + 1, values.width - 1), y)) ||
-                          band(ticks, v) != band(ticks, value(x, std::min(y + 1, values.height - 1)))))
+      const int right = std::min(x + 1, values.width - 1), below = std::min(y + 1, values.height - 1);
+      if (scale.lines && (line_between(ticks, v, value(right, y)) || line_between(ticks, v, value(x, below))))
         code = code * 0.25f;
       for (const float c : {code.r, code.g, code.b}) *to++ = static_cast<unsigned char>(c * 255.0f + 0.5f);
     }
