@@ -47,7 +47,7 @@ void Viewer::design_panel() {
   again |= ImGui::IsItemDeactivatedAfterEdit();
   if (again && plane.shown) measure();
   if (plane.shown && plane.light.samples > 0) {
-    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, plane.buried));
+    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, unreached(plane.light)));
     figure("average lux", fmt::format("{:.0f}", s.average), true);
     figure("minimum", fmt::format("{:.0f}", s.minimum), false);
     figure("maximum", fmt::format("{:.0f}", s.maximum), false);

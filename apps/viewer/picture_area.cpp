@@ -139,13 +139,14 @@ void Viewer::overlays() {
   const Plane& plane = state_.plane;
   if (plane.shown && plane.light.samples > 0) {
     const std::vector<float> lux = lux_of(plane.light, mix);
-    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, plane.buried));
+    const std::vector<uint8_t> dark = unreached(plane.light);
+    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, dark));
     const FalseColor scale = fitting_scale(std::max(s.average, 1.0) / 2, false);
     std::size_t i = 0;
     for (int row = 0; row < plane.grid.rows; ++row)
       for (int column = 0; column < plane.grid.columns; ++column, ++i) {
         const auto spot = project(plane.grid.point(column, row));
-        if (!spot || plane.buried[i] != 0) continue;
+        if (!spot || dark[i] != 0) continue;
         const Rgb c = false_color(scale.place(lux[i]));
         const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
         draw.AddCircleFilled(*spot, px(4.5f), IM_COL32(0, 0, 0, 150), 16);

@@ -189,7 +189,6 @@ void Viewer::measure() {
   plane.shown = true;
   plane.grid = horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
   plane.light = {};
-  plane.buried = buried(state_.opened->rays, plane.grid.points());
   measuring_.start(
       [opened = state_.opened, points = plane.grid.points()](const Progress& progress, const auto& publish) {
         PointMeter meter(opened->rays, points, ReceiverKind::plane);

@@ -37,7 +37,6 @@ struct Plane {
   bool shown = false;
   float height = 0.75f, spacing = 0.5f;
   MeasuringPlane grid;
-  std::vector<uint8_t> buried;  ///< per point: inside of furniture
   MeasuredLight light;
 };
 

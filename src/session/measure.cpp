@@ -102,19 +102,16 @@ std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix, std::s
   return lux;
 }
 
-std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points) {
-  std::vector<uint8_t> inside;
-  for (const SurfacePoint& point : points) {
-    int directions = 0, backs = 0;
-    for (int i = 0; i < 27; ++i) {
-      const Vec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      if (way == Vec3(0)) continue;
-      const Hit hit = view.tracer().closest({point.position, glm::normalize(way)});
-      ++directions, backs += hit && hit.back ? 1 : 0;
-    }
-    inside.push_back(2 * backs > directions ? 1 : 0);
+std::vector<uint8_t> unreached(const MeasuredLight& light) {
+  std::vector<uint8_t> dark;
+  for (std::size_t point = 0; point < light.points(); ++point) {
+    const auto first = light.values.begin() + static_cast<std::ptrdiff_t>(point * light.groups);
+    dark.push_back(std::all_of(first, first + static_cast<std::ptrdiff_t>(light.groups),
+                               [](const Rgb& e) { return e.is_black(); })
+                       ? 1
+                       : 0);
   }
-  return inside;
+  return dark;
 }
 
 }  // namespace sconce

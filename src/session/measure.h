@@ -22,9 +22,6 @@ struct MeasuringPlane {
   std::vector<SurfacePoint> points() const;  ///< row by row
 };
 
-/// Which points lie inside of something: in most of 26 directions the first surface is met from behind.
-std::vector<uint8_t> buried(const View& view, std::span<const SurfacePoint> points);
-
 /// Horizontal, facing up, over all of the bounds but half a metre at each side (a tenth where that is less).
 /// @param height  above the lowest floor, metres @param spacing  of points, metres, at most
 MeasuringPlane horizontal_plane(const Bounds& bounds, float height, float spacing);
@@ -38,6 +35,9 @@ struct MeasuredLight {
   std::size_t points() const { return groups == 0 ? 0 : values.size() / groups; }
   Rgb mixed(std::size_t point, const MixSpec& mix) const;
 };
+
+/// Which points no light of any group reaches: those inside of furniture.
+std::vector<uint8_t> unreached(const MeasuredLight& light);
 
 class PointMeter {
  public:

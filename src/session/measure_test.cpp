@@ -48,6 +48,7 @@ TEST_F(Measured, InverseSquare) {
   const std::vector<float> lux = lux_of(meter.light(), {{Rgb(0.5f), Rgb(1)}});
   EXPECT_NEAR(lux[0], 0.5 * 100 / 0.25, 0.02);
   EXPECT_NEAR(lux[1], 0.5 * 100 / 0.64, 0.02);
+  EXPECT_EQ(unreached(meter.light()), (std::vector<uint8_t>{0, 0}));
 }
 
 TEST(MeasuringPlane, PointsAreTheMiddlesOfCells) {
