@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/error.h"
+#include "import/gltf_accessor.h"
 #include "import/gltf_luminaires.h"
 #include "import/gltf_parts.h"
 
@@ -51,6 +52,41 @@ GltfNode enter(const GltfSource& source, const tinygltf::Node& node, const GltfN
     if (!(scale > 0))
       throw Error(source.at(place + ".extras.lightmap_scale"), "is not positive", "a factor > 0");
     out.lightmap_scale = static_cast<float>(scale);
+  }
+  return out;
+}
+
+/// Where a node's mesh stands in the node: once, or as EXT_mesh_gpu_instancing says.
+std::vector<Mat4> copies(const GltfSource& source, const tinygltf::Node& node, const std::string& place) {
+  const tinygltf::Value* instancing = extension(node.extensions, "EXT_mesh_gpu_instancing");
+  if (instancing == nullptr) return {Mat4(1)};
+  const tinygltf::Value& attributes = instancing->Get("attributes");
+  std::size_t count = 0;
+  const auto read = [&](const char* name, int components) {
+    std::vector<float> out;
+    if (!attributes.IsObject() || !attributes.Has(name)) return out;
+    const std::string here = place + ".EXT_mesh_gpu_instancing." + name;
+    const int accessor = static_cast<int>(number_of(attributes, name, -1));
+    if (!has_accessor(source, accessor, here)) return out;
+    out = read_floats(source, accessor, components, here);
+    const std::size_t n = out.size() / static_cast<std::size_t>(components);
+    if (count != 0 && n != count)
+      throw Error(source.at(here), "has " + std::to_string(n) + " elements",
+                  std::to_string(count) + ", as the others have");
+    count = n;
+    return out;
+  };
+  const std::vector<float> move = read("TRANSLATION", 3), turn = read("ROTATION", 4),
+                           scale = read("SCALE", 3);
+  std::vector<Mat4> out(count, Mat4(1));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!move.empty()) out[i][3] = {move[3 * i], move[3 * i + 1], move[3 * i + 2], 1};
+    if (!turn.empty()) {
+      const glm::quat q(turn[4 * i + 3], turn[4 * i], turn[4 * i + 1], turn[4 * i + 2]);
+      if (glm::length(q) > 1e-6f) out[i] = out[i] * glm::mat4_cast(glm::normalize(q));
+    }
+    if (!scale.empty())
+      for (int axis = 0; axis < 3; ++axis) out[i][axis] *= scale[3 * i + static_cast<std::size_t>(axis)];
   }
   return out;
 }
@@ -113,16 +149,18 @@ void read_gltf_nodes(const GltfSource& source, const GltfMeshes& meshes, Scene& 
 
     const GltfNode here = enter(source, node, visit.parent, place);
     if (node.mesh >= 0) {
-      for (const Id<Mesh> mesh : element(source, meshes.of, node.mesh, place + ".mesh")) {
-        Instance instance;
-        instance.name = here.name;
-        instance.mesh = mesh;
-        instance.transform = here.transform;
-        instance.group_name = here.light_group;
-        instance.light_name = here.light_name;
-        instance.lightmap_scale = here.lightmap_scale;
-        scene.instances.push_back(std::move(instance));
-      }
+      const std::vector<Id<Mesh>>& parts = element(source, meshes.of, node.mesh, place + ".mesh");
+      for (const Mat4& copy : copies(source, node, place))
+        for (const Id<Mesh> mesh : parts) {
+          Instance instance;
+          instance.name = here.name;
+          instance.mesh = mesh;
+          instance.transform = here.transform * copy;
+          instance.group_name = here.light_group;
+          instance.light_name = here.light_name;
+          instance.lightmap_scale = here.lightmap_scale;
+          scene.instances.push_back(std::move(instance));
+        }
     }
     if (node.camera >= 0) add_camera(source, node.camera, here, place, scene, progress);
     if (auto measured = luminaires.read(node, here, place)) {

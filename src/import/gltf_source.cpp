@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "import/gltf_container.h"
 #include "import/gltf_draco.h"
+#include "import/gltf_meshopt.h"
 #include "import/luminaires.h"
 #include "import/uri.h"
 
@@ -24,12 +25,16 @@ using nlohmann::json;
 constexpr int kMaxDepth = 200;
 
 const std::vector<std::string> kUnderstood = {"EXT_lights_ies",
+                                              "EXT_mesh_gpu_instancing",
+                                              "EXT_meshopt_compression",
+                                              "EXT_texture_webp",
                                               "KHR_draco_mesh_compression",
                                               "KHR_lights_punctual",
                                               "KHR_materials_emissive_strength",
                                               "KHR_materials_pbrSpecularGlossiness",
                                               "KHR_materials_unlit",
                                               "KHR_mesh_quantization",
+                                              "KHR_texture_basisu",
                                               "KHR_texture_transform"};
 
 json parse_json(const std::string& text, const std::string& where) {
@@ -98,6 +103,7 @@ std::optional<Bytes> read_buffer(const json& buffer, std::size_t index, const Gl
   const auto length = buffer.at("byteLength").get<std::size_t>();
   Bytes bytes;
   if (!buffer.contains("uri")) {
+    if (is_meshopt_fallback(buffer)) return std::nullopt;
     if (index != 0 || !container.binary) {
       progress.warn(place + ": has neither a uri nor a binary chunk; what lies in it is left out");
       return std::nullopt;
@@ -264,6 +270,7 @@ GltfSource open_gltf(const fs::path& path, const Progress& progress) {
       }
     }
     out.images = read_images(root);
+    decode_meshopt(root, buffers, out.buffer_missing, where);
     check_draco(root, buffers, out.buffer_missing, where);
     indices = simplify(root, buffers, where);
   } catch (const json::exception& e) {

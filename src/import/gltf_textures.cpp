@@ -34,6 +34,15 @@ Bytes encoded(const GltfSource& source, const GltfImage& image, const std::strin
   return Bytes(file.begin(), file.end());
 }
 
+/// Of the plain picture where there is one; else of the extensions'. @return -1 where there is none
+int picture_of(const tinygltf::Texture& texture) {
+  if (texture.source >= 0) return texture.source;
+  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
+    if (const tinygltf::Value* with = extension(texture.extensions, name))
+      return static_cast<int>(number_of(*with, "source", -1));
+  return -1;
+}
+
 }  // namespace
 
 const std::optional<GltfTextures::Picture>& GltfTextures::picture(int index, const std::string& place) {
@@ -57,25 +66,24 @@ const std::optional<GltfTextures::Picture>& GltfTextures::picture(int index, con
 
 Id<Texture> GltfTextures::load(int index, const std::string& place) {
   const tinygltf::Texture& texture = element(source_, source_.model.textures, index, place);
-  if (texture.source < 0) {
+  const int source = picture_of(texture);
+  if (source < 0) {
     progress_.warn(source_.at(place) + ": textures[" + std::to_string(index) +
                    "] has no picture that can be read");
     return {};
   }
-  const std::optional<Picture>& from = picture(texture.source, "textures[" + std::to_string(index) + "]");
+  const std::optional<Picture>& from = picture(source, "textures[" + std::to_string(index) + "]");
   if (!from) return {};
   tinygltf::Sampler sampler;
   if (texture.sampler >= 0)
     sampler =
         element(source_, source_.model.samplers, texture.sampler, "textures[" + std::to_string(index) + "]");
-  const auto key = std::tuple(texture.source, sampler.wrapS, sampler.wrapT, sampler.magFilter);
+  const auto key = std::tuple(source, sampler.wrapS, sampler.wrapT, sampler.magFilter);
   if (const auto known = made_.find(key); known != made_.end()) return known->second;
 
   Texture out;
-  const GltfImage& image = source_.images[static_cast<std::size_t>(texture.source)];
-  out.name = !texture.name.empty() ? texture.name
-             : !image.name.empty() ? image.name
-                                   : title(image, texture.source);
+  const GltfImage& image = source_.images[static_cast<std::size_t>(source)];
+  out.name = !texture.name.empty() ? texture.name : !image.name.empty() ? image.name : title(image, source);
   out.pixels = from->pixels;
   out.file = from->file;
   out.mime = from->mime;

@@ -3,8 +3,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "import/assimp_materials.h"
 #include "import/gltf_source.h"
-#include "import/obj_materials.h"
+#include "import/obj_files.h"
 #include "import/side_table.h"
 #include "scene/validate.h"
 
@@ -17,11 +18,13 @@ namespace {
 struct Format {
   const char* name;
   Scene (*read)(const fs::path&, const Progress&);
+  std::vector<fs::path> (*files)(const fs::path&);  ///< that it names and that are there
 };
 
 constexpr Format kFormats[] = {
-    {"glTF 2.0 (.gltf, .glb)", import_gltf},
-    {"OBJ (.obj)", import_obj},
+    {"glTF 2.0 (.gltf, .glb)", import_gltf, gltf_files},
+    {"OBJ (.obj)", import_obj, obj_files},
+    {"3DS, FBX, COLLADA, PLY, STL (.3ds, .fbx, .dae, .ply, .stl)", import_assimp, assimp_files},
 };
 
 Scene read_any(const fs::path& path, const Progress& progress) {
@@ -34,6 +37,16 @@ Scene read_any(const fs::path& path, const Progress& progress) {
     }
   }
   throw Error(path.string(), "is in no format that can be read", join(names, ", "));
+}
+
+std::vector<fs::path> files_of_any(const fs::path& path) {
+  for (const Format& format : kFormats) {
+    try {
+      return format.files(path);
+    } catch (const NotMyFormat&) {
+    }
+  }
+  return {};
 }
 
 /// `kitchen.toml` of `kitchen.glb`, where it stands.
@@ -55,12 +68,7 @@ Scene import_scene(const fs::path& path, const Progress& progress) {
 }
 
 std::vector<fs::path> scene_files(const fs::path& path) {
-  std::vector<fs::path> out;
-  try {
-    out = gltf_files(path);
-  } catch (const NotMyFormat&) {
-    if (lower(path.extension().string()) == ".obj") out = obj_files(path);
-  }
+  std::vector<fs::path> out = files_of_any(path);
   const auto side = side_file_of(path);
   if (!side) return out;
   out.push_back(*side);

@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/picture.h"
 
+#include <cstring>
+
 #include "core/error.h"
 #include "image/io.h"
+#include "image/webp.h"
 #include "import/uri.h"
 
 namespace sconce {
 
+namespace {
+
+bool is_ktx2(std::span<const unsigned char> file) {
+  constexpr std::string_view kMagic = "\xabKTX 20\xbb\r\n\x1a\n";
+  return file.size() > kMagic.size() && std::memcmp(file.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
+}  // namespace
+
 Image8 decode_texture(std::span<const unsigned char> file, const std::string& where) {
   if (is_lfs_pointer({reinterpret_cast<const char*>(file.data()), file.size()}))
     throw Error(where, "only its Git LFS pointer is there");
-  Image8 stored = decode_image8(file, where);
+  if (is_ktx2(file))
+    throw Error(where, "is a KTX2 picture; KTX-Software's `ktx extract` makes a PNG of it",
+                "PNG, JPEG, WebP");
+  Image8 stored = is_webp(file) ? decode_webp(file, where) : decode_image8(file, where);
   if (stored.channels >= 3) return stored;
   Image8 out{stored.width, stored.height, stored.channels + 2, {}};
   out.data.reserve(stored.data.size() / static_cast<std::size_t>(stored.channels) *

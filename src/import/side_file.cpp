@@ -66,8 +66,9 @@ Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up) {
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress) {
   const SideNode root = parse_side_file(path);
   const SideTable file(path.string(), "the side file", root,
-                       {"light", "luminaire", "group", "emission", "camera", "sky", "material", "options"});
+                       {"scene", "light", "luminaire", "group", "emission", "camera", "sky", "material", "options"});
   const SideContext context{path, scene, progress};
+  if (const SideNode* whole = root.find("scene")) apply_scene(context, *whole);
   // Groups come last: they also name lamps that this file adds.
   for_each_table(context, root, "material", apply_material);
   for_each_table(context, root, "emission", apply_emission);

@@ -21,6 +21,8 @@ struct SideContext {
   const Progress& progress;
 };
 
+/// Before all other tables: they speak of the scene as it then stands.
+void apply_scene(const SideContext& context, const SideNode& node);
 void apply_light(const SideContext& context, const SideNode& node);
 void apply_luminaire(const SideContext& context, const SideNode& node);
 void apply_sky(const SideContext& context, const SideNode& node);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "import/obj_materials.h"
+#include "import/assimp_materials.h"
 
 #include <assimp/material.h>
+#include <assimp/scene.h>
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -35,10 +35,15 @@ std::string texture_name(const aiMaterial& m, aiTextureType type) {
   return m.GetTexture(type, 0, &name) == AI_SUCCESS ? name.C_Str() : "";
 }
 
-/// MTL files come from all kinds of systems.
-fs::path beside(const fs::path& obj, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return obj.parent_path() / name;
+/// Of a file, or of what is embedded in the scene's. @throws Error
+std::vector<unsigned char> bytes_of(const fs::path& file, const aiScene& read, const std::string& name) {
+  if (const aiTexture* embedded = read.GetEmbeddedTexture(name.c_str())) {
+    if (embedded->mHeight != 0) throw Error(name, "is embedded without compression", "PNG or JPEG");
+    const auto* bytes = reinterpret_cast<const unsigned char*>(embedded->pcData);
+    return {bytes, bytes + embedded->mWidth};
+  }
+  const std::string bytes = read_file(find_beside(file, name));
+  return {bytes.begin(), bytes.end()};
 }
 
 bool is_file(const fs::path& path) {
@@ -46,41 +51,38 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ec);
 }
 
-/// What follows `keyword` on the lines that begin with it.
-std::vector<std::string> statements(const fs::path& file, std::string_view keyword) {
-  std::vector<std::string> out;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    line = trim(line);
-    if (line.size() > keyword.size() && lower(line.substr(0, keyword.size())) == keyword &&
-        std::isspace(static_cast<unsigned char>(line[keyword.size()])))
-      out.push_back(trim(line.substr(keyword.size())));
-  }
-  return out;
-}
-
 }  // namespace
 
-Id<Texture> ObjMaterials::texture(const std::string& name) {
+fs::path find_beside(const fs::path& scene, std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const fs::path given = scene.parent_path() / name;
+  if (is_file(given)) return given;
+  std::error_code ec;
+  const std::string last = lower(given.filename().string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(scene.has_parent_path() ? scene.parent_path() : ".", ec))
+    if (lower(entry.path().filename().string()) == last && is_file(entry.path())) return entry.path();
+  return given;
+}
+
+Id<Texture> AssimpMaterials::texture(const std::string& name) {
   if (const auto found = known_.find(name); found != known_.end()) return found->second;
   Id<Texture> id;
   try {
-    const std::string bytes = read_file(beside(obj_, name));
     Texture out;
     out.name = name;
-    out.file.assign(bytes.begin(), bytes.end());
+    out.file = bytes_of(file_, read_, name);
     out.pixels = decode_texture(out.file, name);
     out.mime = picture_mime(out.file);
     if (out.mime.empty()) out.file.clear();
     id = Id<Texture>(scene_.textures.size());
     scene_.textures.push_back(std::move(out));
   } catch (const Error& e) {
-    progress_.warn(obj_.string() + ": texture " + name + " is left out: " + e.what());
+    progress_.warn(file_.string() + ": texture " + name + " is left out: " + e.what());
   }
   return known_[name] = id;
 }
 
-void ObjMaterials::add(const aiMaterial& m) {
+void AssimpMaterials::add(const aiMaterial& m) {
   Material out;
   aiString name;
   if (m.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) out.name = name.C_Str();
@@ -89,7 +91,7 @@ void ObjMaterials::add(const aiMaterial& m) {
   out.alpha = number_of(m, AI_MATKEY_OPACITY, 1);
   if (out.alpha < 1) {
     out.alpha_mode = Material::Alpha::blend;
-    progress_.warn(obj_.string() + ": material '" + out.name + "' is transparent; it is treated as opaque");
+    progress_.warn(file_.string() + ": material '" + out.name + "' is transparent; it is treated as opaque");
   }
   const auto slot = [&](aiTextureType type, TextureUse& use) {
     const std::string file = texture_name(m, type);
@@ -109,35 +111,21 @@ void ObjMaterials::add(const aiMaterial& m) {
   }
   if (out.emits()) slot(aiTextureType_EMISSIVE, out.emission_texture);
   if (!texture_name(m, aiTextureType_OPACITY).empty())
-    progress_.warn(obj_.string() + ": material '" + out.name +
-                   "': map_d is ignored; it is treated as opaque");
-  // Winding in OBJ files is a matter of luck; lamps keep their front, so that their flux is what Ke says.
+    progress_.warn(file_.string() + ": material '" + out.name +
+                   "': its opacity map is ignored; it is treated as opaque");
+  // Winding in such files is a matter of luck; lamps keep their front, so that their flux is what Ke says.
   out.double_sided = !out.emits();
   scene_.materials.push_back(std::move(out));
 }
 
-std::vector<fs::path> mtl_files(const fs::path& obj) {
-  std::vector<fs::path> out;
-  for (const std::string& name : statements(obj, "mtllib")) out.push_back(beside(obj, name));
-  return out;
-}
-
-std::vector<fs::path> obj_files(const fs::path& obj) {
+std::vector<fs::path> texture_files(const fs::path& file, const aiScene& read) {
   std::set<fs::path> out;
-  for (const fs::path& mtl : mtl_files(obj)) {
-    if (!is_file(mtl)) continue;
-    out.insert(mtl);
-    for (const char* key : {"map_kd", "map_ke"})
-      for (const std::string& value : statements(mtl, key)) {
-        // Options stand before the name, which may hold spaces: the longest tail that is a file.
-        for (std::size_t at = 0; at != std::string::npos; at = value.find(' ', at + 1)) {
-          const fs::path file = beside(obj, trim(value.substr(at)));
-          if (!is_file(file)) continue;
-          out.insert(file);
-          break;
-        }
-      }
-  }
+  for (unsigned i = 0; i < read.mNumMaterials; ++i)
+    for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE}) {
+      const std::string name = texture_name(*read.mMaterials[i], type);
+      if (name.empty() || read.GetEmbeddedTexture(name.c_str()) != nullptr) continue;
+      if (const fs::path found = find_beside(file, name); is_file(found)) out.insert(found);
+    }
   return {out.begin(), out.end()};
 }
 
