@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "blender.h"
 #include "core/test_data.h"
 #include "core/text.h"
 #include "image/io.h"
@@ -20,19 +21,10 @@ namespace {
 
 using test::LightmapError;
 
-bool blender_is_there() {
-  return std::getenv("BLENDER") != nullptr || std::system("command -v blender >/dev/null") == 0;
-}
-
-class Cycles : public testing::Test {
+class Cycles : public test::BlenderTest {
  protected:
   TemporaryFolder folder;
 
-  void SetUp() override {
-    if (blender_is_there()) return;
-    if (test_data_required()) FAIL() << "blender is absent";
-    GTEST_SKIP() << "blender is absent";
-  }
   /// @return the package, or nothing after a failure
   Package bake(const std::string& scene, const std::string& name, const std::string& solver, int samples,
                std::vector<std::string> more = {}) const {

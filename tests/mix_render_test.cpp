@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verbs mix and render on a package whose content is known.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -95,7 +96,52 @@ TEST_F(MixRender, LayeredPictureMixesToo) {
   ASSERT_EQ(run_sconce({"mix", path("render.exr"), "fill=off", "key=3", "-o", path("m.exr")}).code, 0);
   EXPECT_EQ(read_exr(path("m.exr")).rgb_at(1, 1), Rgb(6));
   EXPECT_EQ(run_sconce({"mix", path("render.exr"), "fil=off", "-o", path("m.exr")}).code, 2);
-  EXPECT_EQ(run_sconce({"mix", path("render.exr"), "-o", path("m.png")}).code, 2);
+  ASSERT_EQ(run_sconce({"mix", path("render.exr"), "--tone", "linear", "-o", path("m.png")}).code, 0);
+  for (const float v : read_image(path("m.png")).data) EXPECT_NEAR(v, 0.18f, 0.002f);
+}
+
+TEST_F(MixRender, SequencesOfPictures) {
+  for (int frame = 8; frame <= 11; ++frame) {
+    Image image(2, 2, {"R", "G", "B", "RGBA_key.R", "RGBA_key.G", "RGBA_key.B"});
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+      image.data[i] = static_cast<float>(i % 6 < 3 ? 3 * frame : frame);
+    write_exr(path(fmt::format("shot.{:04}.exr", frame)), image, PixelType::full);
+  }
+  write_file(path("look.toml"), "[mix]\nkey = 4\nrest = \"off\"\n");
+  const auto mix = [&](const std::string& frames, const std::string& output) {
+    return run_sconce(
+        {"mix", path("shot.%04d.exr"), "--frames", frames, "--preset", path("look.toml"), "-o", output});
+  };
+  ASSERT_EQ(mix("8-11", path("out.%d.exr")).code, 0);
+  for (int frame = 8; frame <= 11; ++frame)
+    EXPECT_EQ(read_exr(path(fmt::format("out.{}.exr", frame))).rgb_at(0, 0),
+              Rgb(4 * static_cast<float>(frame)));
+  // Brightening stays: exposure is the first frame's.
+  ASSERT_EQ(mix("8-9", path("out.%d.png")).code, 0);
+  EXPECT_GT(read_image(path("out.9.png")).data[0], 1.02f * read_image(path("out.8.png")).data[0]);
+  EXPECT_EQ(mix("11-12", path("out.%d.exr")).code, 1);
+  EXPECT_EQ(mix("12-11", path("out.%d.exr")).code, 2);
+  EXPECT_EQ(mix("x", path("out.%d.exr")).code, 2);
+  EXPECT_EQ(mix("8-9", path("out.exr")).code, 2);
+}
+
+TEST_F(MixRender, InfoListsTheGroupsOfPictures) {
+  Image image(2, 2, {"R", "G", "B", "RGBA_key.R", "RGBA_key.G", "RGBA_key.B", "Z"});
+  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = i % 7 < 3 ? 4 : 1;
+  write_exr(path("render.exr"), image, PixelType::full);
+  const Outcome text = run_sconce({"info", path("render.exr")});
+  EXPECT_EQ(text.code, 0);
+  for (const char* word : {"Arnold", "key", "RGBA_key", "75.00 %", "Z"})
+    EXPECT_NE(text.out.find(word), std::string::npos) << text.out;
+  write_exr(path("plain.exr"), Image(2, 2, {"R", "G", "B", "Z"}), PixelType::full);
+  for (const char* verb : {"info", "mix"}) {
+    const Outcome none = run_sconce(
+        std::string(verb) == "info" ? std::vector<std::string>{verb, path("plain.exr")}
+                                    : std::vector<std::string>{verb, path("plain.exr"), "-o", path("x.exr")});
+    EXPECT_EQ(none.code, 1);
+    EXPECT_NE(none.err.find("has no light-group layers"), std::string::npos) << none.err;
+    EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1) << none.err;
+  }
 }
 
 TEST_F(MixRender, LinearPictureHoldsCandelas) {

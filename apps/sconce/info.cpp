@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -57,19 +58,26 @@ nlohmann::ordered_json json_of(const Vec3& v) {
 }
 
 int run_info(int argc, const char* const* argv) {
-  std::string file, groups = "auto";
+  std::string file, groups = "auto", groups_from;
   bool list_options = false;
-  Options options("info", "What is in a scene or a package.");
-  options.positional("file", &file, "scene (.glb .gltf .obj) or package (NAME.sconce)");
+  Options options("info", "What is in a scene, a package, or a picture with light groups.");
+  options.positional("file", &file, "scene (.glb .gltf .obj), package (NAME.sconce) or picture (.exr)");
   options.option("--groups", &groups, "how a scene's lights become groups: auto, named, per-light, one");
+  options.option(
+      "--groups-from", &groups_from,
+      "regular expression of the layers of a picture that are groups; what it captures is the name");
   options.flag("--options", &list_options, "list where each option of the bake came from");
   if (const auto code = options.parse(argc, argv)) return *code;
 
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
   const bool is_package = std::filesystem::is_directory(file);
-  const InfoReport report =
-      is_package ? package_info(file, list_options) : scene_info(file, groups, list_options, progress);
+  const bool is_picture = !is_package && lower(std::filesystem::path(file).extension().string()) == ".exr";
+  if (!is_picture && !groups_from.empty())
+    throw UsageError("option '--groups-from'", file + " is no picture", "an OpenEXR picture");
+  const InfoReport report = is_picture   ? picture_info(file, groups_from)
+                            : is_package ? package_info(file, list_options)
+                                         : scene_info(file, groups, list_options, progress);
   std::fputs((options.json ? report.json.dump(2) + "\n" : report.text).c_str(), stdout);
   return kDone;
 }

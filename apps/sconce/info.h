@@ -21,6 +21,8 @@ struct InfoReport {
 /// @param options  list the side file's [options], too
 InfoReport scene_info(const std::filesystem::path& path, const std::string& groups, bool options,
                       const Progress& progress);
+/// @param groups_from  see find_groups()
+InfoReport picture_info(const std::filesystem::path& path, const std::string& groups_from);
 InfoReport package_info(const std::filesystem::path& path, bool options);
 
 /// Numbers as short as their float precision.

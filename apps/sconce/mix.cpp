@@ -12,9 +12,8 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "image/io.h"
-#include "mix/layered_image.h"
 #include "mix/tone_lightmap.h"
-#include "mix_options.h"
+#include "mix_picture.h"
 #include "tone_options.h"
 
 namespace fs = std::filesystem;
@@ -30,26 +29,10 @@ struct Mixed {
   std::vector<Image8> lightmap;  ///< of the pages, where display codes are asked for
 };
 
-/// A package, or a picture with layers; which of the two is told by content.
 /// @param tone  when given: codes for a display, too
-Mixed mix_input(const std::string& input, const MixOptions& settings, const Preset& preset,
-                const ToneOptions* tone, const Progress& progress) {
+Mixed mix_package(const std::string& input, const MixOptions& settings, const Preset& preset,
+                  const ToneOptions* tone, const Progress& progress) {
   Mixed out;
-  if (fs::is_regular_file(input)) {
-    if (settings.raw) throw UsageError("option '--raw'", input + " is a picture", "a package");
-    if (tone != nullptr) throw UsageError("option '--output'", input + " is a picture", "FILE.exr");
-    Image image;
-    try {
-      image = read_exr(input);
-    } catch (const NotMyFormat&) {
-      throw Error(input, "is neither a package nor an OpenEXR picture");
-    }
-    const LayeredImage layered = find_layers(std::move(image), input);
-    out.groups = layered.groups;
-    out.mix = settings.make(preset, out.groups, progress);
-    out.pages.push_back(mix_layers(layered, out.mix));
-    return out;
-  }
   const Package package = settings.open(input);
   out.groups = package.manifest().groups;
   out.mix = settings.make(preset, out.groups, progress);
@@ -105,65 +88,101 @@ void write_page_to_stdout(const std::vector<Image>& pages) {
   write_stdout(read_file(file.path()));
 }
 
+/// What a mix did, for people or machines.
+struct Report {
+  std::vector<std::string> files;
+  int width, height;
+  const std::vector<GroupInfo>& groups;
+  const MixSpec& mix;
+};
+
+void print(const Report& report, const Options& options, const std::string& input, double seconds) {
+  if (options.json) {
+    const nlohmann::ordered_json json = {
+        {"input", input},
+        {"output", report.files},
+        {"width", report.width},
+        {"height", report.height},
+        {"groups", nlohmann::ordered_json::parse(weights_json(report.groups, report.mix))},
+        {"seconds", seconds}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  } else if (!options.quiet && report.files.front() != "-") {
+    fmt::print("{}: {} x {}, {} of {} groups lit, {:.1f} s\n",
+               report.files.size() > 4 ? fmt::format("{} ... {}", report.files.front(), report.files.back())
+                                       : join(report.files, ", "),
+               report.width, report.height,
+               std::count_if(report.mix.weights.begin(), report.mix.weights.end(),
+                             [](const Rgb& w) { return !w.is_black(); }),
+               report.groups.size(), seconds);
+  }
+}
+
 }  // namespace
 
 int run_mix(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
-  std::string input, output;
+  PictureMix job;
   MixOptions settings;
   ToneOptions tone;
-  Options options("mix",
-                  "Adds a package's layers (or an OpenEXR picture's) with the groups' weights: one lightmap "
-                  "per page, linear in lux, or as codes for a display.");
-  options.positional("PACKAGE", &input,
-                     "NAME.sconce, or an OpenEXR picture with layers GROUP.R, GROUP.G, GROUP.B");
+  Options options(
+      "mix",
+      "Adds a package's layers with the groups' weights: one lightmap per page, linear in lux, or as codes "
+      "for a display. Or those of another renderer's picture with light groups: the same picture under other "
+      "lights.");
+  options.positional(
+      "PACKAGE", &job.input,
+      "NAME.sconce, or an OpenEXR picture with light groups as Blender Cycles, V-Ray, LuxCore and Arnold "
+      "name them, or with layers GROUP.R, GROUP.G, GROUP.B");
   settings.declare(options);
   tone.declare(options);
-  options.option("-o,--output", &output,
-                 "OpenEXR (lux), or PNG of a package: exposure and tone curve of E/pi, for hardware without "
-                 "shaders; several pages get .0, .1, ... before the ending; - is OpenEXR on stdout");
+  options.option(
+      "-o,--output", &job.output,
+      "OpenEXR, linear, or PNG: exposure and tone curve, of a package those of E/pi, for hardware without "
+      "shaders; several pages get .0, .1, ... before the ending; - is OpenEXR on stdout");
+  options.option(
+      "--groups-from", &job.groups_from,
+      "regular expression of the layers of a picture that are groups; what it captures is the group's name");
+  options.option(
+      "--frames", &job.frames,
+      "FIRST-LAST: mixes a sequence of pictures; input and output have %04d (or %d) for the number; "
+      "exposure is metered on the first");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (output.empty()) throw UsageError({}, "missing -o FILE.exr or FILE.png: where to write the lightmap");
-  check_output(output, {".exr", ".png"});
-  const bool toned = lower(fs::path(output).extension().string()) == ".png";
+  if (job.output.empty()) throw UsageError({}, "missing -o FILE.exr or FILE.png: where to write the mix");
+  check_output(job.output, {".exr", ".png"});
+  const bool toned = lower(fs::path(job.output).extension().string()) == ".png";
   if (!toned && !(tone.exposure.empty() && tone.ev100.empty() && tone.curve.empty()))
-    throw UsageError({}, "--exposure, --ev100 and --tone need -o FILE.png: an OpenEXR lightmap stays in lux");
+    throw UsageError({}, "--exposure, --ev100 and --tone need -o FILE.png: an OpenEXR mix stays linear");
   const Preset preset = settings.preset();
   tone.apply(preset);
   tone.check();
-  if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
+  if (job.output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
 
   const ThreadLimit threads(options.threads);
+  const auto report = [&](const Report& done) {
+    print(done, options, job.input,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  };
+  if (!job.frames.empty() || fs::is_regular_file(job.input)) {
+    const MixedPictures mixed = mix_pictures(job, settings, preset, tone, make_progress(options));
+    report({mixed.files, mixed.width, mixed.height, mixed.groups, mixed.mix});
+    return kDone;
+  }
+  if (!job.groups_from.empty())
+    throw UsageError("option '--groups-from'", job.input + " is no picture", "an OpenEXR picture");
   Mixed mixed;
   std::vector<std::string> files;
   {
     const Progress progress = make_progress(options);
-    mixed = mix_input(input, settings, preset, toned ? &tone : nullptr, progress);
-    files = output_files(output, mixed.pages.size());
-    if (output == "-")
+    mixed = mix_package(job.input, settings, preset, toned ? &tone : nullptr, progress);
+    files = output_files(job.output, mixed.pages.size());
+    if (job.output == "-")
       write_page_to_stdout(mixed.pages);
     else
       write_pages(files, [&](const fs::path& path, std::size_t page) {
         toned ? write_png(path, mixed.lightmap[page]) : write_exr(path, mixed.pages[page], PixelType::full);
       });
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const Image& page = mixed.pages.front();
-  if (options.json) {
-    const nlohmann::ordered_json report = {
-        {"input", input},
-        {"output", files},
-        {"width", page.width},
-        {"height", page.height},
-        {"groups", nlohmann::ordered_json::parse(weights_json(mixed.groups, mixed.mix))},
-        {"seconds", seconds}};
-    fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  } else if (!options.quiet && output != "-") {
-    fmt::print("{}: {} x {}, {} of {} groups lit, {:.1f} s\n", join(files, ", "), page.width, page.height,
-               std::count_if(mixed.mix.weights.begin(), mixed.mix.weights.end(),
-                             [](const Rgb& w) { return !w.is_black(); }),
-               mixed.groups.size(), seconds);
-  }
+  report({files, mixed.pages.front().width, mixed.pages.front().height, mixed.groups, mixed.mix});
   return kDone;
 }
 

@@ -12,7 +12,6 @@
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <ImfTileDescriptionAttribute.h>
 #include <half.h>
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "image/exr.h"
+#include "image/exr_header.h"
 #include "image/exr_stream.h"
 #include "image/io.h"
 
@@ -32,62 +32,6 @@ namespace sconce {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
-
-/// Attributes that describe the file's own layout; they are not the picture's.
-const std::set<std::string, std::less<>> kLayoutAttributes{"name", "type", "view", "pixelAspectRatio",
-                                                           "screenWindowWidth"};
-
-/// A library's message on one line, without the stream's name before it.
-std::string one_line(const char* what) {
-  std::string text = what;
-  const std::string_view stream = "\"memory\". ";
-  if (const auto at = text.find(stream); at != std::string::npos) text.erase(0, at + stream.size());
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text;
-}
-
-/// R, G, B, A in this order inside a layer (OpenEXR sorts by letter: A, B, G, R), everything else as in the
-/// file.
-std::tuple<std::string, int, std::string> channel_key(const std::string& name) {
-  const auto dot = name.rfind('.');
-  const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot + 1);
-  const std::string leaf = name.substr(layer.size());
-  const auto rank = leaf.size() == 1 ? std::string_view("RGBA").find(leaf[0]) : std::string_view::npos;
-  return {layer, rank == std::string_view::npos ? 4 : static_cast<int>(rank), leaf};
-}
-
-/// Refuses what cannot be true: a small file that claims a picture of many gigabytes.
-void check_size(const Imf::Header& header, std::size_t channels, std::size_t file_bytes) {
-  const Imath::Box2i window = header.dataWindow();
-  const int64_t width = int64_t{window.max.x} - window.min.x + 1;
-  const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-  if (width < 1 || height < 1 || width > (1 << 24) || height > (1 << 24))
-    throw std::runtime_error("data window of " + std::to_string(width) + " x " + std::to_string(height));
-  // Deflate reaches 1:1032 on halves, which become floats here.
-  const double bytes =
-      4.0 * static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
-  if (bytes > 64e6 + 4096.0 * static_cast<double>(file_bytes))
-    throw std::runtime_error("claims " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels, more than its " + std::to_string(file_bytes) + " bytes can hold");
-  if (!header.hasTileDescription()) return;
-  const Imf::TileDescription& tile = header.tileDescription();
-  if (4.0 * tile.xSize * tile.ySize * static_cast<double>(channels) >
-      256e6 + 4096.0 * static_cast<double>(file_bytes))
-    throw std::runtime_error("tiles of " + std::to_string(tile.xSize) + " x " + std::to_string(tile.ySize));
-}
-
-void read_attributes(const Imf::Header& header, Image& image) {
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const std::string name = it.name();
-    if (kLayoutAttributes.count(name) != 0) continue;
-    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
-      image.text[name] = s->value();
-    if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute()))
-      image.number[name] = f->value();
-  }
-}
 
 /// Luminance and subsampled chroma, rebuilt to R, G, B (and A) in the file's own primaries by OpenEXR's
 /// filters.
@@ -172,10 +116,6 @@ Image read_first_part(const std::string& bytes) {
   Image image = has("Y") && has("RY") && has("BY") ? read_luminance_chroma(bytes, header, has("A"))
                                                    : read_channels(file, names);
   read_attributes(header, image);
-  if (Imf::hasChromaticities(header)) {
-    const Imf::Chromaticities& c = Imf::chromaticities(header);
-    image.primaries = {c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y};
-  }
   return image;
 }
 
@@ -193,9 +133,9 @@ Imf::Header make_header(const Image& image, PixelType type) {
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, Imf::Chromaticities());  // the defaults are Rec. 709's
   for (const auto& [name, value] : image.text)
-    if (kLayoutAttributes.count(name) == 0) header.insert(name, Imf::StringAttribute(value));
+    if (layout_attributes().count(name) == 0) header.insert(name, Imf::StringAttribute(value));
   for (const auto& [name, value] : image.number)
-    if (kLayoutAttributes.count(name) == 0) header.insert(name, Imf::FloatAttribute(value));
+    if (layout_attributes().count(name) == 0) header.insert(name, Imf::FloatAttribute(value));
   for (const std::string& c : image.channels)
     header.channels().insert(c, Imf::Channel(type == PixelType::half ? Imf::HALF : Imf::FLOAT));
   return header;

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "mix/layered_image.h"
 #include "package/test_package.h"
 
 namespace sconce {
@@ -132,23 +131,6 @@ TEST_F(Mix, DarknessMetersAsDelta) {
   const Package package = write(constant(100));
   const MixSpec mix{{Rgb(0)}};
   EXPECT_NEAR(meter(package, mix, mix_pages(package, mix)).log_mean, 1e-4, 1e-9);
-}
-
-TEST(LayeredImage, MixesLikeAPackage) {
-  Image image(2, 1,
-              {"R", "G", "B", "key.R", "key.G", "key.B", "key.A", "fill light.R", "fill light.G",
-               "fill light.B", "depth.R"});
-  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<float>(i);
-  const LayeredImage layered = find_layers(image, "x.exr");
-  ASSERT_EQ(layered.groups.size(), 2u);
-  EXPECT_EQ(layered.groups[0].name, "key");
-  EXPECT_EQ(layered.groups[1].name, "fill light");
-  const std::vector<std::string> settings{"fill light=2"};
-  const MixSpec mix = make_mix(layered.groups, settings, "", {});
-  EXPECT_EQ(mix_layers(layered, mix).rgb_at(0, 0), Rgb(3 + 2 * 7, 4 + 2 * 8, 5 + 2 * 9));
-  const std::vector<std::string> lumens{"key=800lm"};
-  EXPECT_THROW(make_mix(layered.groups, lumens, "", {}), UsageError);
-  EXPECT_THROW(find_layers(Image::rgb(1, 1), "x.exr"), Error);
 }
 
 }  // namespace

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mix_picture.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "image/io.h"
+#include "mix/layered_image.h"
+#include "tone/apply.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::app {
+
+namespace {
+
+constexpr int kMostFrames = 1000000;
+
+std::vector<int> parse_frames(const std::string& text) {
+  const auto number = [&](std::string_view part) {
+    int value = -1;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc() || end != part.data() + part.size() || value < 0)
+      throw UsageError("option '--frames'", "'" + text + "' is no range", "FIRST-LAST or N");
+    return value;
+  };
+  const std::size_t dash = text.find('-');
+  const int first = number(text.substr(0, dash)),
+            last = dash == std::string::npos ? first : number(text.substr(dash + 1));
+  if (last < first || last - first >= kMostFrames)
+    throw UsageError("option '--frames'", "'" + text + "' is no range", "FIRST-LAST or N");
+  std::vector<int> frames;
+  for (int frame = first; frame <= last; ++frame) frames.push_back(frame);
+  return frames;
+}
+
+/// %d or %04d becomes the frame's number. @throws UsageError where there is none
+std::string frame_file(const std::string& pattern, int frame, const std::string& what) {
+  for (std::size_t at = pattern.find('%'); at != std::string::npos; at = pattern.find('%', at + 1)) {
+    const std::size_t end = pattern.find_first_not_of("0123456789", at + 1);
+    if (end == std::string::npos || pattern[end] != 'd') continue;
+    int width = 0;
+    std::from_chars(pattern.data() + at + 1, pattern.data() + end, width);
+    return pattern.substr(0, at) + fmt::format("{:0{}}", frame, std::min(width, 20)) +
+           pattern.substr(end + 1);
+  }
+  throw UsageError(what, "'" + pattern + "' has no place for the frame's number", "a name with %04d");
+}
+
+class PictureMixer {
+ public:
+  PictureMixer(const PictureMix& job, const MixOptions& settings, const Preset& preset,
+               const ToneOptions& tone, const Progress& progress)
+      : job_(job), settings_(settings), preset_(preset), tone_(tone), progress_(progress) {}
+
+  void mix(const std::string& input, const std::string& output) {
+    const LayeredImage layered = read_layered(input, job_.groups_from);
+    // What is to be said is said of the first frame.
+    const bool first = out_.files.empty();
+    const MixSpec mix = settings_.make(preset_, layered.groups, first ? progress_ : Progress{});
+    const Image mixed = mix_layers(layered, mix);
+    if (first) {
+      warn(layered, input);
+      out_.width = mixed.width, out_.height = mixed.height;
+      out_.groups = layered.groups, out_.mix = mix;
+    }
+    const bool toned = lower(fs::path(output).extension().string()) == ".png";
+    toned ? write_png(output, tone(shown(layered, mixed))) : write_linear(output, with_mixed(layered, mixed));
+    out_.files.push_back(output);
+  }
+  MixedPictures take() { return std::move(out_); }
+
+ private:
+  static LayeredImage read_layered(const std::string& input, const std::string& expression) {
+    try {
+      return find_layers(read_exr_parts(input), input, expression);
+    } catch (const NotMyFormat&) {
+      throw Error(input, "is neither a package nor an OpenEXR picture");
+    }
+  }
+  void warn(const LayeredImage& layered, const std::string& input) const {
+    for (const std::string& name : layered.picture.left_out)
+      progress_.warn(input + ": '" + name + "' is left out: only flat, full channels are kept");
+    if (const Rest rest = measure_rest(layered); rest.negative > 0)
+      progress_.warn(
+          fmt::format("{}: the groups add up to more than the whole picture in {:.2g} % of the pixels; "
+                      "'{}' is negative there",
+                      input, 100 * rest.negative, layered.groups.back().name));
+  }
+  Image8 tone(const Image& picture) {
+    if (!exposure_) exposure_ = tone_.exposure_choice().resolve(meter_picture(picture));
+    return tone_map(picture, *exposure_, tone_.mapper());
+  }
+  static void write_linear(const std::string& output, const ExrParts& picture) {
+    if (output != "-") return write_exr_parts(output, picture);
+    const Beside file(fs::temp_directory_path() / "sconce-mix.exr");
+    write_exr_parts(file.path(), picture);
+    write_stdout(read_file(file.path()));
+  }
+
+  const PictureMix& job_;
+  const MixOptions& settings_;
+  const Preset& preset_;
+  const ToneOptions& tone_;
+  const Progress& progress_;
+  std::optional<Exposure> exposure_;
+  MixedPictures out_;
+};
+
+}  // namespace
+
+MixedPictures mix_pictures(const PictureMix& job, const MixOptions& settings, const Preset& preset,
+                           const ToneOptions& tone, const Progress& progress) {
+  if (settings.raw) throw UsageError("option '--raw'", job.input + " is a picture", "a package");
+  PictureMixer mixer(job, settings, preset, tone, progress);
+  if (job.frames.empty()) {
+    mixer.mix(job.input, job.output);
+    return mixer.take();
+  }
+  const std::vector<int> frames = parse_frames(job.frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    progress.check();
+    progress.at("mix", i, frames.size());
+    mixer.mix(frame_file(job.input, frames[i], "the picture"),
+              frame_file(job.output, frames[i], "option '--output'"));
+  }
+  return mixer.take();
+}
+
+}  // namespace sconce::app
