@@ -21,7 +21,7 @@ constexpr Verb kVerbs[] = {
     {"info", "what is in a scene or a package: counts, groups with lumens, cameras, layers", run_info},
     {"bake", "a scene to a package with one lightmap per light group", run_bake},
     {"merge", "shards of one bake to a package", run_merge},
-    {"mix", "a package and group settings to one lightmap", run_mix},
+    {"mix", "a package (or a picture with light groups) and settings to one lightmap (or picture)", run_mix},
     {"render", "a package and group settings to a picture", run_render},
     {"shader", "the shader that mixes a package's layers, for another renderer", run_shader},
     {"luminaire", "measured lamps: info, check, convert", run_luminaire},

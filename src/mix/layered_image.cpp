@@ -143,7 +143,10 @@ Image mix_layers(const LayeredImage& layered, const MixSpec& mix) {
 
 ExrParts with_mixed(const LayeredImage& layered, const Image& mixed) {
   const Image& image = layered.picture.image;
-  ExrParts out = layered.picture;
+  ExrParts out;
+  out.data = layered.picture.data;
+  out.display = layered.picture.display;
+  out.attributes = layered.picture.attributes;
   out.integer.assign(3, false);
   std::vector<std::string> names = mixed.channels;
   std::vector<std::size_t> from;
