@@ -4,10 +4,7 @@
 //   gpu_mix [SIDE]      side of the atlas in texels, default 2048
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-
+#include "device.h"
 #include "gpu/mix.h"
 #include "layers.h"
 #include "tone/tone.h"
@@ -17,55 +14,6 @@ using namespace sconce;
 namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;  // of the picture
-constexpr double kSeconds = 0.5;              // spent on each row
-
-/// Seconds of one of many in a row, best of some rows. Timer queries mean nothing where the processor draws.
-template <class F>
-double device_seconds(const gpu::Context& context, F work) {
-  using Clock = std::chrono::steady_clock;
-  const int row = context.capabilities().software ? 1 : 50;
-  double best = 1e9, spent = 0;
-  for (int round = 0; round < 100 && (round < 3 || spent < kSeconds); ++round) {
-    glFinish();
-    const auto start = Clock::now();
-    for (int i = 0; i < row; ++i) work();
-    glFinish();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    best = std::min(best, seconds / row);
-    spent += seconds;
-  }
-  return best;
-}
-
-/// Bytes read and written per second by a copy of buffers larger than any cache: by the shader units, whose
-/// copy engines may be slower.
-double copy_bandwidth(const gpu::Context& context) {
-  const GLsizeiptr bytes = context.capabilities().software ? 1 << 26 : 1 << 30;
-  constexpr GLsizeiptr kPerGroup = 256 * 16;
-  GLuint buffers[2];
-  glCreateBuffers(2, buffers);
-  for (GLuint i = 0; i < 2; ++i) {
-    glNamedBufferStorage(buffers[i], bytes, nullptr, 0);
-    glClearNamedBufferData(buffers[i], GL_R32F, GL_RED, GL_FLOAT, nullptr);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
-  }
-  const gpu::Program copy("copy", R"(#version 450 core
-layout(local_size_x = 256) in;
-layout(binding = 0) readonly buffer From { uvec4 from[]; };
-layout(binding = 1) writeonly buffer To { uvec4 to[]; };
-void main() {
-  uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 256u + gl_LocalInvocationID.x;
-  to[i] = from[i];
-}
-)");
-  copy.use();
-  constexpr GLuint kAcross = 1024;
-  const auto groups = static_cast<GLuint>(bytes / kPerGroup);
-  const double seconds = device_seconds(context, [&] { glDispatchCompute(kAcross, groups / kAcross, 1); });
-  glDeleteBuffers(2, buffers);
-  context.check("copying");
-  return 2 * static_cast<double>(bytes) / seconds;
-}
 
 /// A picture that fills the target from page 0, toned as in the paper.
 class Screen {

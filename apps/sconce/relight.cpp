@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "relight/relight.h"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,6 +12,8 @@
 #include "operator_path.h"
 #include "picture_options.h"
 #include "picture_output.h"
+#include "relight_stage.h"
+#include "shader_lamp.h"
 #include "tone/apply.h"
 
 namespace fs = std::filesystem;
@@ -39,6 +39,7 @@ struct Move {
 /// What `--light`, `--lights` and `--move` ask for.
 struct Wanted {
   std::vector<Light> lights;
+  std::vector<gpu::LampShader> shaders;
   std::vector<std::string> groups;
   std::vector<Move> moves;
 };
@@ -50,6 +51,8 @@ Wanted find_wanted(const std::vector<std::string>& texts, const std::string& fil
   for (const std::string& text : texts) {
     if (text.starts_with(kGroup))
       wanted.groups.push_back(text.substr(kGroup.size()));
+    else if (text.starts_with(kShaderLamp))
+      wanted.shaders.push_back(parse_shader_lamp(text));
     else
       wanted.lights.push_back(light_option(text));
   }
@@ -61,7 +64,7 @@ Wanted find_wanted(const std::vector<std::string>& texts, const std::string& fil
       throw UsageError("option '--move'", "'" + text + "' is not understood", "LAMP=X,Y,Z");
     wanted.moves.push_back({text.substr(0, equals), parse_point(text.substr(equals + 1), "--move")});
   }
-  if (wanted.lights.empty() && wanted.groups.empty() && wanted.moves.empty())
+  if (wanted.lights.empty() && wanted.groups.empty() && wanted.moves.empty() && wanted.shaders.empty())
     throw UsageError({}, "no lamp to move: --light, --lights or --move",
                      "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
   return wanted;
@@ -96,6 +99,7 @@ struct Relit {
   PictureParams params;
   Metering metering;
   Relighter::Seconds seconds;
+  std::string device;
   std::vector<GroupInfo> groups;
   MixSpec mix;
 };
@@ -125,6 +129,7 @@ int run_relight(int argc, const char* const* argv) {
   bool pixels = false;
   MixOptions settings;
   PictureOptions picture;
+  RelightDevice device;
   Options options(
       "relight",
       "A picture of a package with lamps that are in none of its layers: their direct light as it is, "
@@ -135,13 +140,17 @@ int run_relight(int argc, const char* const* argv) {
       "--light", &texts,
       "a lamp: point, spot or sun, then keys as in a side file, for example "
       "spot,position=1,2,0,target=0,0,0,lumens=800; or group,name=G: the group by transfer instead of "
-      "by its layer; may be given several times");
+      "by its layer; or shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; "
+      "may "
+      "be given several times");
   options.option("--lights", &file, "TOML file with [[light]] tables");
   options.option("--move", &moves,
                  "LAMP=X,Y,Z: a lamp or a whole group of the package leaves its layer and shines from there; "
                  "may be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
+  options.option("--patches", &device.patches, "small lamps that OpenGL draws a lamp with an area as");
+  options.option("--shadow-map", &device.shadow_side, "texels of the side of OpenGL's shadow maps");
   options.option("-o,--output", &output,
                  "PNG (toned), or OpenEXR (linear, cd/m2; exposed only when asked for); - is PNG on stdout "
                  "(default: NAME.relit.png)");
@@ -150,8 +159,9 @@ int run_relight(int argc, const char* const* argv) {
   const Preset preset = settings.preset();
   picture.apply(preset);
   picture.check();
-  if (picture.device == "gl" || picture.device == "software" || picture.tier != "auto")
-    throw UsageError("option '--device'", "relight draws on the CPU", "auto, cpu");
+  if (picture.tier != "auto") throw UsageError({}, "--tier is for 'sconce render'");
+  device.name = picture.device;
+  device.check();
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");
   if (output.empty()) output = default_output(input, ".relit.png");
@@ -186,15 +196,13 @@ int run_relight(int argc, const char* const* argv) {
     const std::vector<MovedGroup> groups = take_groups(left, lightmap);
     find_view(op, view, picture, progress, relit);
     progress.check();
-    const MovedLamps lamps(view.scene(), view.world(), view.tracer(), wanted.lights, groups, shifts);
-    for (const std::string& name : lamps.buried())
-      progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
-    const Relighter relighter(package, view, op, lamps);
-    relit.seconds = relighter.seconds();
+    const RelightJob job{package, view, op, wanted.lights, wanted.shaders, groups, shifts};
+    const auto stage = make_relight_stage(job, device, progress);
+    relit.seconds = stage->seconds();
+    relit.device = stage->device();
     std::vector<Image> pages = mix_pages(package, lightmap);
-    if (op.kind == OperatorReceivers::texels) relighter.add_to(pages);
-    relit.linear =
-        view.render(relit.camera, relit.mix, pages, relit.params, progress, nullptr, relighter.added());
+    if (op.kind == OperatorReceivers::texels) stage->add_to(pages);
+    relit.linear = stage->draw(relit.camera, relit.mix, pages, relit.params, progress);
     if (exposed) relit.metering = meter_picture(relit.linear);
     const Exposure exposure =
         exposed ? choice.resolve(relit.metering) : unit_exposure(relit.metering.maximum);
@@ -209,6 +217,7 @@ int run_relight(int argc, const char* const* argv) {
         {"width", relit.params.width},
         {"height", relit.params.height},
         {"camera", relit.camera.name},
+        {"device", relit.device},
         {"exposure", exposed ? choice.text() : "none"},
         {"groups", nlohmann::ordered_json::parse(weights_json(relit.groups, relit.mix))},
         {"seconds",

@@ -114,8 +114,8 @@ class GlStage : public Stage {
   gpu::View view_;
 };
 
-/// Null where `device` leaves it to us and there is no graphics device: OpenGL in software is slower than
-/// rays.
+}  // namespace
+
 std::unique_ptr<gpu::Context> open_context(const std::string& device) {
   if (device == "cpu" || device == "software") return nullptr;
   try {
@@ -125,8 +125,6 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device) {
     return nullptr;
   }
 }
-
-}  // namespace
 
 std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
                                   const std::string& tier) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/progress.h"
+#include "gpu/context.h"
 #include "mix/mix.h"
 #include "scene/lens.h"
 #include "tone/exposure.h"
@@ -26,6 +27,10 @@ class Stage {
   virtual Image coverage() const = 0;  ///< share of each pixel that shows an emitter or the sky
   virtual Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const = 0;
 };
+
+/// OpenGL's context for a device's name; null for cpu and software, and for auto where there is no graphics
+/// device: OpenGL in software is slower than rays. @throws Error when gl is asked for and there is no OpenGL
+std::unique_ptr<gpu::Context> open_context(const std::string& device);
 
 /// @param package  must outlive it
 /// @param device   cpu, gl, software (picture/fixed_function.h), or auto: OpenGL where there is a graphics

@@ -66,6 +66,9 @@ Capabilities ask(bool software) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &c.max_texture_size);
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &c.max_array_layers);
   glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &c.max_units);
+  GLint64 buffer = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &buffer);
+  c.max_buffer = static_cast<std::size_t>(buffer);
   c.float_linear = filters(GL_RGBA32F);
   c.float_target = renders(GL_RGBA32F);
   c.half_target = renders(GL_RGBA16F);

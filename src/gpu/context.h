@@ -13,6 +13,7 @@ struct Capabilities {
   bool software = false;  ///< the processor draws
   int max_texture_size = 0, max_array_layers = 0;
   int max_units = 0;                               ///< textures that one fragment shader may read
+  std::size_t max_buffer = 0;                      ///< bytes of a buffer that shaders read
   bool float_linear = false;                       ///< 32-bit float textures are filtered
   bool float_target = false, half_target = false;  ///< float textures can be drawn to
   bool bc6h = false;

@@ -1,21 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/framebuffer.h"
 
+#include <vector>
+
 #include "core/error.h"
 
 namespace sconce::gpu {
 
-Framebuffer::Framebuffer(const Texture& color, int layer, const Texture* depth)
-    : width_(color.params().width), height_(color.params().height), has_depth_(depth != nullptr) {
-  glCreateFramebuffers(1, &handle_);
-  if (color.params().layers > 0)
-    glNamedFramebufferTextureLayer(handle_, GL_COLOR_ATTACHMENT0, color.handle(), 0, layer);
+Framebuffer::Framebuffer(const Texture& color, int layer, const Texture* depth,
+                         std::span<const Texture* const> more)
+    : Framebuffer(color.params()) {
+  attach(GL_COLOR_ATTACHMENT0, color, layer);
+  std::vector<GLenum> points{GL_COLOR_ATTACHMENT0};
+  for (const Texture* texture : more) {
+    points.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(points.size()));
+    attach(points.back(), *texture, layer);
+  }
+  colors_ = static_cast<int>(points.size());
+  glNamedFramebufferDrawBuffers(handle_, colors_, points.data());
+  has_depth_ = depth != nullptr;
+  if (has_depth_) attach(GL_DEPTH_ATTACHMENT, *depth, 0);
+  check();
+}
+
+Framebuffer::Framebuffer(DepthOnly, const Texture& depths, int layer) : Framebuffer(depths.params()) {
+  attach(GL_DEPTH_ATTACHMENT, depths, layer);
+  has_depth_ = true;
+  check();
+}
+
+void Framebuffer::attach(GLenum point, const Texture& texture, int layer) const {
+  if (texture.params().layers > 0)
+    glNamedFramebufferTextureLayer(handle_, point, texture.handle(), 0, layer);
   else
-    glNamedFramebufferTexture(handle_, GL_COLOR_ATTACHMENT0, color.handle(), 0);
-  if (depth != nullptr) glNamedFramebufferTexture(handle_, GL_DEPTH_ATTACHMENT, depth->handle(), 0);
+    glNamedFramebufferTexture(handle_, point, texture.handle(), 0);
+}
+
+void Framebuffer::check() const {
   const GLenum status = glCheckNamedFramebufferStatus(handle_, GL_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return;
-  glDeleteFramebuffers(1, &handle_);
   throw Error("OpenGL", "this device cannot draw to a texture of " + std::to_string(width_) + " x " +
                             std::to_string(height_) + " (status " + std::to_string(status) + ")");
 }
@@ -27,7 +50,7 @@ void Framebuffer::use() const {
 
 void Framebuffer::clear() const {
   const float zero[4] = {0, 0, 0, 0};
-  glClearNamedFramebufferfv(handle_, GL_COLOR, 0, zero);
+  for (int i = 0; i < colors_; ++i) glClearNamedFramebufferfv(handle_, GL_COLOR, i, zero);
   if (has_depth_) glClearNamedFramebufferfv(handle_, GL_DEPTH, 0, zero);
 }
 

@@ -1,32 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "gpu/texture.h"
 
 namespace sconce::gpu {
 
-/// A texture to draw to. Row 0 of the texture is the picture's top row.
+/// Textures to draw to. Row 0 of a texture is the picture's top row.
 class Framebuffer {
  public:
   /// @param layer  of an array
   /// @param depth  may be null
+  /// @param more   of the same size, for a shader's further outputs
   /// @throws Error when the device cannot draw to such textures
-  Framebuffer(const Texture& color, int layer, const Texture* depth = nullptr);
+  Framebuffer(const Texture& color, int layer, const Texture* depth = nullptr,
+              std::span<const Texture* const> more = {});
+  struct DepthOnly {};
+  Framebuffer(DepthOnly, const Texture& depths, int layer);
   ~Framebuffer() { glDeleteFramebuffers(1, &handle_); }
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
   /// Draws go here, to all of it.
   void use() const;
-  /// Colour becomes 0, depth 0 (infinitely far, see Picture).
+  /// Colours become 0, depth 0 (infinitely far, see Picture).
   void clear() const;
-  /// Reads width x height pixels back, tightly packed. @param pixels  of that size
+  /// Reads width x height pixels of the first colour back, tightly packed. @param pixels  of that size
   void read(GLenum format, GLenum type, void* pixels) const;
 
  private:
+  explicit Framebuffer(const TextureParams& size) : width_(size.width), height_(size.height) {
+    glCreateFramebuffers(1, &handle_);
+  }
+  void attach(GLenum point, const Texture& texture, int layer) const;
+  void check() const;
+
   GLuint handle_ = 0;
-  int width_, height_;
-  bool has_depth_;
+  int width_, height_, colors_ = 0;
+  bool has_depth_ = false;
 };
 
 }  // namespace sconce::gpu

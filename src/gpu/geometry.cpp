@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "transfer/operator.h"
+
 namespace sconce::gpu {
 
 namespace {
@@ -13,18 +15,17 @@ namespace {
 struct Vertex {
   Vec3 position;
   Vec2 base, metallic, emission;
-  Vec3 front, back;  ///< lightmap: u, v, page
+  Vec3 front, back;                     ///< lightmap: u, v, page
+  std::array<int16_t, 2> normal, face;  ///< octahedral; the face's where there is no normal
 };
-static_assert(sizeof(Vertex) == 15 * sizeof(float));
+static_assert(sizeof(Vertex) == 17 * sizeof(float));
 
 /// And what it reads where there are normal maps.
 struct Bend {
-  Vec3 normal;  ///< zero: the face's
-  Vec3 face;
   glm::vec4 tangent;
   Vec2 place;
 };
-static_assert(sizeof(Bend) == 12 * sizeof(float));
+static_assert(sizeof(Bend) == 6 * sizeof(float));
 
 GLenum gl_wrap(sconce::Texture::Wrap mode) {
   switch (mode) {
@@ -73,21 +74,23 @@ Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
   const auto in_lightmap = [&](const LightmapSide& side) {
     return Vec3(side.uv[k], static_cast<float>(side.page));
   };
-  return {world.positions[world.triangles[triangle].v[k]],
+  const uint32_t v = world.triangles[triangle].v[k];
+  const Vec3& face = world.face_normals[triangle];
+  return {world.positions[v],
           place(material.base_color_texture),
           place(material.metallic_roughness_texture),
           place(material.emission_texture),
           in_lightmap(shown.front[triangle]),
-          in_lightmap(shown.back[triangle])};
+          in_lightmap(shown.back[triangle]),
+          pack_normal(world.normals[v] == Vec3(0) ? face : world.normals[v]),
+          pack_normal(face)};
 }
 
 void add_bends(const ShownScene& shown, std::size_t triangle, std::vector<Bend>& out) {
   const World& world = shown.world;
   const TextureUse& map = shown.scene[world.materials[triangle]].normal_texture;
   const std::array<glm::vec4, 3> tangents = map_tangents(shown.scene, world, triangle);
-  for (std::size_t k = 0; k < 3; ++k)
-    out.push_back({world.normals[world.triangles[triangle].v[k]], world.face_normals[triangle], tangents[k],
-                   place_in(map, world, triangle, k)});
+  for (std::size_t k = 0; k < 3; ++k) out.push_back({tangents[k], place_in(map, world, triangle, k)});
 }
 
 /// Vertex attributes of so many floats each, from `first` on. @return the buffer
@@ -152,7 +155,11 @@ void Geometry::upload_triangles() {
   }
   glCreateVertexArrays(1, &layout_);
   vertices_ = upload_attributes(vertices, layout_, 0, 0, {3, 2, 2, 2, 3, 3});
-  if (normal_maps_) normals_ = upload_attributes(bends, layout_, 1, 6, {3, 3, 4, 2});
+  constexpr GLuint kNormals = 6;
+  glEnableVertexArrayAttrib(layout_, kNormals);
+  glVertexArrayAttribFormat(layout_, kNormals, 4, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
+  glVertexArrayAttribBinding(layout_, kNormals, 0);
+  if (normal_maps_) normals_ = upload_attributes(bends, layout_, 1, kNormals + 1, {4, 2});
 }
 
 void Geometry::upload_textures(const Context& context) {
@@ -191,6 +198,12 @@ void Geometry::bind(const TextureUse& use, bool srgb, int unit) const {
   (found == textures_.end() ? white_ : found->second).bind(unit);
 }
 
+void Geometry::set_base(const Program& program, const Material& material) const {
+  bind(material.base_color_texture, true, 0);
+  program.set("alpha", material.alpha);
+  program.set("alpha_cutoff", material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : -1.0f);
+}
+
 void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) const {
   glBindVertexArray(layout_);
   surface.set("base_map", 0);
@@ -199,19 +212,26 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
   surface.set("normal_map", 3);
   for (const Batch& batch : batches_) {
     const Material& m = shown_->scene[batch.material];
-    bind(m.base_color_texture, true, 0);
+    set_base(surface, m);
     bind(m.metallic_roughness_texture, false, 1);
     bind(m.emission_texture, true, 2);
     bind(m.normal_texture, false, 3);
     surface.set("has_normal_map", normal_maps_ && m.normal_texture.texture ? 1 : 0);
     surface.set("normal_scale", m.normal_scale);
     surface.set("base_color", m.base_color);
-    surface.set("alpha", m.alpha);
-    surface.set("alpha_cutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f);
     surface.set("metallic", m.metallic);
     surface.set("emission", m.emission);
     surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
     surface.set("double_sided", m.double_sided ? 1 : 0);
+    glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
+  }
+}
+
+void Geometry::draw_shapes(const Program& shader) const {
+  glBindVertexArray(layout_);
+  shader.set("base_map", 0);
+  for (const Batch& batch : batches_) {
+    set_base(shader, shown_->scene[batch.material]);
     glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
   }
 }

@@ -11,7 +11,7 @@
 
 namespace sconce::gpu {
 
-/// Every triangle has vertices of its own, for both sides' places in the lightmap: 60 bytes a vertex, and 48
+/// Every triangle has vertices of its own, for both sides' places in the lightmap: 68 bytes a vertex, and 24
 /// more for normal maps.
 class Geometry {
  public:
@@ -27,6 +27,8 @@ class Geometry {
   /// Draws everything with `surface` (gpu/surface.glsl), which is in use.
   /// @param weights  of the light groups, for what emits
   void draw(const Program& surface, const std::vector<Rgb>& weights) const;
+  /// Draws shapes alone, for gpu/shadow_fragment.glsl.
+  void draw_shapes(const Program& shader) const;
 
  private:
   /// Triangles that share all that is set between draws.
@@ -42,6 +44,7 @@ class Geometry {
   void upload_triangles();
   void upload_textures(const Context& context);
   void bind(const TextureUse& use, bool srgb, int unit) const;
+  void set_base(const Program& program, const Material& material) const;
 
   const ShownScene* shown_;
   bool normal_maps_;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#version 450 core
 // Twin of scene/lens.h: depth runs from 1 at the near plane to 0 infinitely far, rows from the top.
 
 layout(location = 0) in vec3 position;
@@ -8,10 +7,9 @@ layout(location = 2) in vec2 metallic_place;
 layout(location = 3) in vec2 emission_place;
 layout(location = 4) in vec3 front_place;  // u, v, page
 layout(location = 5) in vec3 back_place;
-layout(location = 6) in vec3 vertex_normal;  // these where there are normal maps
-layout(location = 7) in vec3 face;
-layout(location = 8) in vec4 vertex_tangent;
-layout(location = 9) in vec2 normal_place;
+layout(location = 6) in vec4 normals;         // octahedral: the vertex's (the face's where it has none), the face's
+layout(location = 7) in vec4 vertex_tangent;  // these where there are normal maps
+layout(location = 8) in vec2 normal_place;
 
 uniform vec3 eye;
 uniform mat3 to_plane;  // inverse of Lens::plane
@@ -21,19 +19,20 @@ uniform float near;     // m
 
 out vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
 out vec2 normal_uv;
-out vec3 normal;
+out vec3 place, normal;
 out vec4 tangent;
 flat out vec3 face_normal;
 flat out int front_page, back_page;
 
 void main() {
+  place = position;
+  normal = sconce_octahedral(normals.xy);
+  face_normal = sconce_octahedral(normals.zw);
   base_uv = base_place;
   metallic_uv = metallic_place;
   emission_uv = emission_place;
   normal_uv = normal_place;
-  normal = vertex_normal;
   tangent = vertex_tangent;
-  face_normal = face;
   front_uv = front_place.xy;
   back_uv = back_place.xy;
   front_page = int(front_place.z);

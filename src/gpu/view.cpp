@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/view.h"
 
+#include <array>
+
 #include "core/sobol.h"
 #include "gpu/display_pass.h"
 
@@ -43,6 +45,21 @@ struct View::Targets {
 
   Texture color, depth, sum;
   Framebuffer pass, total;
+};
+
+/// The same pass, with what it shows.
+struct View::Surfaces {
+  Surfaces(const Context& context, const Targets& targets)
+      : place(context, params(targets), "picture"),
+        normals(context, params(targets), "picture"),
+        albedo(context, params(targets), "picture"),
+        pass(targets.color, 0, &targets.depth, std::array{&place, &normals, &albedo}) {}
+  static TextureParams params(const Targets& targets) {
+    return {.format = GL_RGBA32F, .width = targets.width(), .height = targets.height(), .filter = GL_NEAREST};
+  }
+
+  Texture place, normals, albedo;
+  Framebuffer pass;
 };
 
 View::View(const Context& context, const ShownScene& shown, bool normal_maps)
@@ -96,9 +113,10 @@ void View::draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shif
 }
 
 const Program& View::surface_for(const LightSource& light) {
-  std::string text = std::string(kVersion) + light.glsl() + std::string(kSurface);
+  const std::string head = std::string(kVersion) + std::string(octahedral_glsl());
+  std::string text = head + light.glsl() + std::string(kSurface);
   if (!surface_ || text != surface_text_) {
-    surface_ = std::make_unique<Program>("surface", kSurfaceVertex, text);
+    surface_ = std::make_unique<Program>("surface", head + std::string(kSurfaceVertex), text);
     surface_text_ = std::move(text);
   }
   return *surface_;
@@ -109,18 +127,20 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
   params.check();
   const Lens lens(camera, params);
   if (!targets_ || targets_->width() != params.width || targets_->height() != params.height)
-    targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
+    surfaces_.reset(), targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
+  const std::span<AddedLight* const> added = options.added;
+  if (!added.empty() && surfaces_ == nullptr) surfaces_ = std::make_unique<Surfaces>(*context_, *targets_);
   samples_ = options.last < 0 ? params.samples : std::min(options.last, params.samples);
   const Program& surface = surface_for(light);
   const Bounds& bounds = shown_->world.bounds;
   surface.set("eye", lens.eye());
+  surface.set("plane", lens.plane());
   surface.set("to_plane", Mat3(glm::inverse(glm::dmat3(lens.plane()))));
   surface.set("size", Vec2(params.width, params.height));
   // Depth is a float that falls from 1 to 0, so its steps are the same fraction of any distance.
   surface.set("near", 1e-5f * glm::length(bounds.hi - bounds.lo));
   surface.set("look", static_cast<int>(options.look));
   surface.set("page_size", options.page_size);
-  light.bind(surface, Geometry::kUnits);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GREATER);
   // Rows run downwards, which turns windings round.
@@ -132,14 +152,19 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     progress.at("render", static_cast<uint64_t>(s), static_cast<uint64_t>(params.samples));
     const Vec2 shift =
         params.samples == 1 ? Vec2(0) : Vec2(0.5f) - Sampler(params.seed, 0, static_cast<uint32_t>(s)).next();
+    if (!added.empty()) surfaces_->pass.clear();
     targets_->pass.use();
     targets_->pass.clear();
     if (options.look == Look::picture) draw_sky(lens, weights, shift);
+    if (!added.empty()) surfaces_->pass.use();
     glEnable(GL_DEPTH_TEST);
     surface.use();
     surface.set("shift", shift);
+    light.bind(surface, Geometry::kUnits);  // added light has used its units
     geometry_.draw(surface, weights);
     glDisable(GL_DEPTH_TEST);
+    for (AddedLight* more : added)
+      more->add({surfaces_->place, surfaces_->normals, surfaces_->albedo}, targets_->color);
 
     targets_->total.use();
     glEnable(GL_BLEND);

@@ -4,11 +4,13 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/progress.h"
 #include "gpu/framebuffer.h"
 #include "gpu/geometry.h"
 #include "gpu/light_source.h"
+#include "gpu/seen_surfaces.h"
 #include "mix/settings.h"
 #include "scene/lens.h"
 #include "tone/exposure.h"
@@ -24,6 +26,7 @@ struct DrawOptions {
   Look look = Look::picture;
   Vec2 page_size{1024};      ///< texels; for charts
   int first = 0, last = -1;  ///< samples to draw now, on top of those before `first`; -1: to the end
+  std::span<AddedLight* const> added = {};  ///< to a picture
 };
 
 /// A package ready to be drawn.
@@ -43,6 +46,8 @@ class View {
   void draw(const Camera& camera, const std::vector<Rgb>& weights, const LightSource& light,
             const PictureParams& params, const Progress& progress = {}, const DrawOptions& options = {});
 
+  const Geometry& geometry() const { return geometry_; }
+
   Image linear() const;    ///< cd/m2, before exposure
   Image coverage() const;  ///< share of each pixel that shows an emitter or the sky, one channel
   /// Exposure, curve and sRGB transfer, applied on the device.
@@ -53,6 +58,7 @@ class View {
 
  private:
   struct Targets;
+  struct Surfaces;
   const Program& surface_for(const LightSource& light);
   void draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shift) const;
   std::vector<float> sums() const;
@@ -65,7 +71,8 @@ class View {
   std::string surface_text_;
   std::vector<std::optional<Texture>> skies_;  ///< per light of the scene that is a sky
   std::unique_ptr<Targets> targets_;
-  GLuint nothing_ = 0;  ///< vertex array of shaders that need no vertices
+  std::unique_ptr<Surfaces> surfaces_;  ///< where light was added
+  GLuint nothing_ = 0;                  ///< vertex array of shaders that need no vertices
   int samples_ = 0;
 };
 

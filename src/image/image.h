@@ -48,6 +48,9 @@ struct Image {
   int channel(std::string_view name) const;
 };
 
+/// The RGB channels of a picture, whatever else it holds; grey ones thrice.
+Image rgb_of(const Image& image);
+
 /// 8-bit image, 1 to 4 interleaved channels, row 0 on top.
 struct Image8 {
   int width = 0, height = 0, channels = 3;

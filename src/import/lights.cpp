@@ -26,20 +26,29 @@ Light only_light(const std::filesystem::path& where, const SideNode& node, const
 
 }  // namespace
 
-Light parse_light(std::string_view text, const std::string& where) {
+LightWords split_light(std::string_view text, const std::string& where) {
   const std::vector<std::string> parts = split(text, ',');
-  SideNode::Table table{{"type", SideNode{parts.front(), 0}}};
+  LightWords words{parts.front(), {}};
   for (std::size_t i = 1; i < parts.size();) {
     const std::size_t equals = parts[i].find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError(where, "'" + parts[i] + "' is no KEY=VALUE",
                        "spot,position=X,Y,Z,target=X,Y,Z,lumens=N");
-    const std::string key = parts[i].substr(0, equals);
-    std::vector<std::string> values{parts[i].substr(equals + 1)};
-    while (++i < parts.size() && parts[i].find('=') == std::string::npos) values.push_back(parts[i]);
-    table.emplace_back(key, value_of(values));
+    words.values.push_back({parts[i].substr(0, equals), {parts[i].substr(equals + 1)}});
+    while (++i < parts.size() && parts[i].find('=') == std::string::npos)
+      words.values.back().second.push_back(parts[i]);
   }
+  return words;
+}
+
+Light parse_light(const LightWords& words, const std::string& where) {
+  SideNode::Table table{{"type", SideNode{words.type, 0}}};
+  for (const auto& [key, value] : words.values) table.emplace_back(key, value_of(value));
   return only_light(where, SideNode{std::move(table), 0}, {});
+}
+
+Light parse_light(std::string_view text, const std::string& where) {
+  return parse_light(split_light(text, where), where);
 }
 
 std::vector<Light> read_lights(const std::filesystem::path& path, const Progress& progress) {

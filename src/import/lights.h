@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -11,9 +13,18 @@
 
 namespace sconce {
 
-/// `spot,position=1,2,0.5,target=0,0,0,lumens=800,kelvin=2700`: the type, then keys of [[light]]; a part
-/// without
-/// `=` goes on with the value before it. @throws UsageError or Error naming `where` and the key
+/// A lamp's text in its parts.
+struct LightWords {
+  std::string type;
+  std::vector<std::pair<std::string, std::vector<std::string>>> values;  ///< per key, in order
+};
+
+/// `spot,position=1,2,0.5,target=0,0,0,lumens=800,kelvin=2700`: the type, then KEY=VALUE; a part without `=`
+/// goes on with the value before it. @throws UsageError naming `where`
+LightWords split_light(std::string_view text, const std::string& where);
+
+/// Keys are those of [[light]]. @throws UsageError or Error naming `where` and the key
+Light parse_light(const LightWords& words, const std::string& where);
 Light parse_light(std::string_view text, const std::string& where);
 
 /// The [[light]] tables of a TOML file that has nothing else. @throws Error with file:line

@@ -107,6 +107,12 @@ MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tra
   }
 }
 
+std::vector<std::pair<std::size_t, Rgb>> MovedLamps::chosen() const {
+  std::vector<std::pair<std::size_t, Rgb>> out;
+  for (const Chosen& c : chosen_) out.emplace_back(c.lamp, c.weight);
+  return out;
+}
+
 Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const {
   Rgb sum;
   const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);

@@ -35,6 +35,9 @@ class MovedLamps {
              std::span<const MovedGroup> groups, std::span<const LampMove> moves = {});
 
   std::size_t size() const { return chosen_.size(); }
+  /// All lamps, and which of them are moved, with their weights: for other devices.
+  const Lamps& lamps() const { return lamps_; }
+  std::vector<std::pair<std::size_t, Rgb>> chosen() const;
   /// Direct illuminance at a point, lux, by one shadow ray for each lamp and one ray for all lamps of some
   /// size and skies, weighted by the balance heuristic (Veach 1997): a mean over `index`es of a stream is the
   /// soft shadow. Thread-safe.

@@ -74,6 +74,25 @@ RelightReceivers texel_receivers(const Package& package, const View& view, const
   return out;
 }
 
+void add_to_pages(const Package& package, const View& view, const Operator& op, std::span<const Rgb> light,
+                  std::vector<Image>& pages) {
+  const Atlas atlas = package_atlas(package, view);
+  const std::size_t page_size = static_cast<std::size_t>(op.width) * static_cast<std::size_t>(op.height);
+  for (int page = 0; page < op.pages; ++page) {
+    Image own = Image::rgb(op.width, op.height);
+    std::vector<uint8_t> valid(page_size, 0);
+    for (std::size_t i = 0; i < op.places.size(); ++i) {
+      if (op.places[i] / page_size != static_cast<std::size_t>(page)) continue;
+      const std::size_t at = op.places[i] % page_size;
+      valid[at] = 1;
+      own.set_rgb(static_cast<int>(at) % op.width, static_cast<int>(at) / op.width, light[i]);
+    }
+    fill_gaps(atlas, page, valid, own);
+    Image& sum = pages[static_cast<std::size_t>(page)];
+    for (std::size_t k = 0; k < own.data.size(); ++k) sum.data[k] += own.data[k];
+  }
+}
+
 RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height) {
   PictureParams params;
   params.width = width, params.height = height;

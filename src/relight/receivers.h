@@ -27,6 +27,11 @@ Atlas package_atlas(const Package& package, const View& view);
 /// The texels that were baked. Package and view must outlive it.
 RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress = {});
 
+/// Adds light on an operator's texels to the pages of a lightmap, gaps filled.
+/// @param light  per receiver, lux
+void add_to_pages(const Package& package, const View& view, const Operator& op, std::span<const Rgb> light,
+                  std::vector<Image>& pages);
+
 /// What the middles of pixels see; pixels that see nothing or a black back are none. The view must outlive
 /// it.
 RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height);

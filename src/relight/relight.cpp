@@ -38,21 +38,7 @@ Relighter::Relighter(const Package& package, const View& view, const Operator& o
 }
 
 void Relighter::add_to(std::vector<Image>& pages) const {
-  const Atlas atlas = package_atlas(package_, view_);
-  const std::size_t page_size = static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height);
-  for (int page = 0; page < op_.pages; ++page) {
-    Image own = Image::rgb(op_.width, op_.height);
-    std::vector<uint8_t> valid(page_size, 0);
-    for (std::size_t i = 0; i < op_.places.size(); ++i) {
-      if (op_.places[i] / page_size != static_cast<std::size_t>(page)) continue;
-      const std::size_t at = op_.places[i] % page_size;
-      valid[at] = 1;
-      own.set_rgb(static_cast<int>(at) % op_.width, static_cast<int>(at) / op_.width, indirect_[i]);
-    }
-    fill_gaps(atlas, page, valid, own);
-    Image& sum = pages[static_cast<std::size_t>(page)];
-    for (std::size_t k = 0; k < own.data.size(); ++k) sum.data[k] += own.data[k];
-  }
+  add_to_pages(package_, view_, op_, indirect_, pages);
 }
 
 Rgb Relighter::nearest_pixel(const SurfacePoint& at, int x, int y) const {

@@ -20,6 +20,9 @@ class FoldedBounces {
   /// below zero is darkness.
   void indirect(std::span<Rgbx> exitance, std::span<Rgb> out) const;
 
+  /// The small matrix of a channel, by rows: for other devices.
+  std::span<const float> matrix(std::size_t channel) const { return sums_[channel]; }
+
  private:
   const Operator& op_;
   std::size_t rank_;                        ///< basis rows of `bounce`

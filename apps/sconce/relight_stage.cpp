@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relight_stage.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "core/error.h"
+#include "gpu/direct_light.h"
+#include "gpu/pixel_indirect.h"
+#include "gpu/transfer.h"
+#include "gpu/view.h"
+#include "stage.h"
+
+namespace sconce::app {
+
+namespace {
+
+class CpuRelightStage : public RelightStage {
+ public:
+  CpuRelightStage(const RelightJob& job, std::unique_ptr<MovedLamps> lamps)
+      : view_(job.view), lamps_(std::move(lamps)), relighter_(job.package, job.view, job.op, *lamps_) {}
+  std::string device() const override { return "cpu"; }
+  Relighter::Seconds seconds() const override { return relighter_.seconds(); }
+  void add_to(std::vector<Image>& pages) const override { relighter_.add_to(pages); }
+  Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
+             const PictureParams& params, const Progress& progress) override {
+    return view_.render(camera, mix, pages, params, progress, nullptr, relighter_.added());
+  }
+
+ private:
+  const View& view_;
+  std::unique_ptr<MovedLamps> lamps_;
+  Relighter relighter_;
+};
+
+/// Column, row.
+std::string place(uint32_t number, int width) {
+  return fmt::format("{}, {}", number % static_cast<uint32_t>(width), number / static_cast<uint32_t>(width));
+}
+
+class GlRelightStage : public RelightStage {
+ public:
+  GlRelightStage(const RelightJob& job, std::unique_ptr<gpu::Context> context,
+                 std::vector<gpu::LampShader> lamps)
+      : job_(job),
+        context_(std::move(context)),
+        view_(*context_, job.view.shown()),
+        direct_(*context_, view_.geometry(), job.view.world().bounds, std::move(lamps)),
+        transfer_(*context_, job.op) {
+    using Clock = std::chrono::steady_clock;
+    const gpu::Buffer points(*context_, job.op.lit, "the operator's cloud");
+    glFinish();
+    const auto start = Clock::now();
+    direct_.light_cloud(points, job.op.slots(), job.op.points_per_slot, transfer_.exitance());
+    glFinish();
+    const auto lit = Clock::now();
+    transfer_.apply();
+    glFinish();
+    seconds_.direct = std::chrono::duration<double>(lit - start).count();
+    seconds_.indirect = std::chrono::duration<double>(Clock::now() - lit).count();
+    added_.push_back(&direct_);
+    if (job.op.kind == OperatorReceivers::pixels) {
+      pixels_ = std::make_unique<gpu::PixelIndirect>(*context_, job.op, transfer_.illuminance(),
+                                                     job.view.world().bounds.diagonal());
+      added_.push_back(pixels_.get());
+    }
+  }
+  std::string device() const override { return context_->capabilities().renderer; }
+  Relighter::Seconds seconds() const override { return seconds_; }
+  void add_to(std::vector<Image>& pages) const override {
+    add_to_pages(job_.package, job_.view, job_.op, transfer_.read(), pages);
+  }
+  Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
+             const PictureParams& params, const Progress& progress) override {
+    view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
+    for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
+      std::string line = report.file + ": NaN or infinity, taken for darkness:";
+      if (report.cloud.count > 0)
+        line += fmt::format(" {} of {} gather samples (first: {})", report.cloud.count, job_.op.lit.size(),
+                            report.cloud.first);
+      if (report.pixels.count > 0)
+        line += fmt::format("{} {} pixels of {} passes (first: {})", report.cloud.count > 0 ? "," : "",
+                            report.pixels.count, params.samples, place(report.pixels.first, params.width));
+      progress.warn(line);
+    }
+    return view_.linear();
+  }
+
+ private:
+  RelightJob job_;
+  std::unique_ptr<gpu::Context> context_;
+  gpu::View view_;
+  gpu::DirectLight direct_;
+  gpu::Transfer transfer_;
+  std::unique_ptr<gpu::PixelIndirect> pixels_;
+  std::vector<gpu::AddedLight*> added_;
+  Relighter::Seconds seconds_;
+};
+
+}  // namespace
+
+void RelightDevice::check() const {
+  if (name != "auto" && name != "cpu" && name != "gl")
+    throw UsageError("option '--device'", "unknown device '" + name + "'", "auto, cpu, gl");
+  if (patches < 1 || patches > 1024)
+    throw UsageError("option '--patches'", std::to_string(patches), "1 to 1024");
+  if (shadow_side < 64 || shadow_side > 16384)
+    throw UsageError("option '--shadow-map'", fmt::format("{} texels", shadow_side), "64 to 16384");
+}
+
+std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const RelightDevice& device,
+                                                 const Progress& progress) {
+  if (device.name == "cpu" && !job.shaders.empty())
+    throw UsageError("option '--device'", "light shaders need OpenGL", "gl, auto");
+  auto lamps = std::make_unique<MovedLamps>(job.view.scene(), job.view.world(), job.view.tracer(), job.lights,
+                                            job.groups, job.moves);
+  for (const std::string& name : lamps->buried())
+    progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
+  if (auto context = open_context(job.shaders.empty() ? device.name : "gl")) {
+    try {
+      std::vector<gpu::LampShader> all =
+          gpu::lamp_shaders(lamps->lamps(), lamps->chosen(), device.patches, device.shadow_side);
+      all.insert(all.end(), job.shaders.begin(), job.shaders.end());
+      return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all));
+    } catch (const gpu::UnknownLamp&) {
+      if (device.name == "gl" || !job.shaders.empty()) throw;
+    }
+  }
+  return std::make_unique<CpuRelightStage>(job, std::move(lamps));
+}
+
+}  // namespace sconce::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moved lamps and their indirect light, on the device that computes them.
+#pragma once
+
+#include <memory>
+
+#include "gpu/lamp_shader.h"
+#include "relight/relight.h"
+
+namespace sconce::app {
+
+/// What is moved. Package, view and operator must outlive the stage.
+struct RelightJob {
+  const Package& package;
+  const View& view;
+  const Operator& op;
+  std::vector<Light> lights;
+  std::vector<gpu::LampShader> shaders;  ///< these need OpenGL
+  std::vector<MovedGroup> groups;
+  std::vector<LampMove> moves;
+};
+
+/// For OpenGL.
+struct RelightDevice {
+  std::string name = "auto";  ///< auto, cpu, gl
+  int patches = 16;           ///< that a lamp with an area is drawn as
+  int shadow_side = 1024;     ///< of a shadow map, texels
+
+  /// @throws UsageError
+  void check() const;
+};
+
+class RelightStage {
+ public:
+  virtual ~RelightStage() = default;
+  virtual std::string device() const = 0;  ///< "cpu", or OpenGL's name of what computes
+  virtual Relighter::Seconds seconds() const = 0;
+  /// Relighter::add_to
+  virtual void add_to(std::vector<Image>& pages) const = 0;
+  /// The picture, linear, cd/m2.
+  /// @param pages  of the whole lightmap
+  virtual Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
+                     const PictureParams& params, const Progress& progress) = 0;
+};
+
+/// Lights the cloud and sends its light to all receivers. `auto` is OpenGL where there is a graphics device
+/// that knows all lamps, and for shaders in any case.
+/// Warns of lamps that stand inside something.
+/// @throws Error when OpenGL is wanted and there is none, or it does not know a lamp; UsageError
+std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const RelightDevice& device,
+                                                 const Progress& progress);
+
+}  // namespace sconce::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sconce relight` by OpenGL against the CPU's, light shaders against lamps of the same kind, and their
+// mistakes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "image/io.h"
+#include "relit_room.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce {
+namespace {
+
+using namespace test;
+
+class RelightByOpenGl : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  std::string file(const std::string& name) const { return (folder / name).string(); }
+  test::Outcome relight(const std::string& name, const Names& lamps,
+                        const Names& more = {"--device", "gl"}) const {
+    Names words{"relight", room().package, "--others", "off", "--size", "96x64", "-o", file(name), "--quiet"};
+    for (const std::string& lamp : lamps) words.insert(words.end(), {"--light", lamp});
+    words.insert(words.end(), more.begin(), more.end());
+    return test::run_sconce(words);
+  }
+  Image picture(const Names& lamps, const Names& more = {"--device", "gl"}) const {
+    const test::Outcome made = relight("x.exr", lamps, more);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return made.code == 0 ? read_exr(file("x.exr")) : Image::rgb(96, 64);
+  }
+};
+
+// Edges of shadows on the coarse cloud are what differs.
+TEST_F(RelightByOpenGl, IsTheCpus) {
+  const Names lamp{"point,position=-0.3,1.5,0.2,lumens=400"};
+  EXPECT_LT(error_of(picture(lamp, {"--device", "cpu"}), picture(lamp)), 0.01);
+  const Names pixels{"--camera", "main", "--pixels", "--device"};
+  const auto with = [&](const char* device) {
+    Names words = pixels;
+    words.push_back(device);
+    Names all{"relight", room().package, "--others", "off", "-o", file("p.exr"), "--light", lamp[0]};
+    all.insert(all.end(), words.begin(), words.end());
+    const test::Outcome made = test::run_sconce(all);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return read_exr(file("p.exr"));
+  };
+  EXPECT_LT(error_of(with("cpu"), with("gl")), 0.015);
+}
+
+TEST_F(RelightByOpenGl, ExamplesAreTheLampsOfTheirNames) {
+  const std::string place = ",position=-0.2,1.9,0.3,target=0.3,0.5,-0.4,intensity=100";
+  const auto shader = [&](const std::string& name, const std::string& more) {
+    return "shader,file=" + example(name) + place + more;
+  };
+  // Their cubes are turned otherwise, so that texels at edges of shadows are others.
+  const auto expect_same = [&](const std::string& lamp, const std::string& own) {
+    EXPECT_LT(error_of(picture({lamp}), picture({own})), 5e-3) << own;
+  };
+  expect_same("point" + place + ",range=3", shader("point.glsl", ",range=3"));
+  expect_same("spot" + place + ",inner=10,outer=40", shader("spot.glsl", ",inner=10,outer=40,shadow=80"));
+  expect_same("sun,direction=0.3,-0.2,-1,intensity=50",
+              "shader,file=" + example("sun.glsl") + ",direction=0.3,-0.2,-1,intensity=50,shadow=sun");
+}
+
+// A slide that is red on the left throws red on the left: the wall behind is (a / pi) I / depth2.
+TEST_F(RelightByOpenGl, AProjectorThrowsItsSlide) {
+  const Image8 slide{4, 1, 3, {255, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0, 255}};
+  write_png(file("slide.png"), slide);
+  const std::string lamp =
+      "shader,file=" + example("projector.glsl") +
+      ",position=0,1.4,0.9,target=0,1.4,-1,intensity=" + "100,fov=30,shadow=60,slide=" + file("slide.png");
+  const Image seen =
+      picture({lamp}, {"--device", "gl", "--eye", "0,1.4,0.95", "--target", "0,1.4,-1", "--fov", "30"});
+  const Rgb left = seen.rgb_at(40, 32), right = seen.rgb_at(56, 32);
+  EXPECT_GT(left.r, 5 * left.b);
+  EXPECT_GT(right.b, 5 * right.r);
+  EXPECT_NEAR(left.r, 0.7f * kInvPi * 100 / (1.9f * 1.9f), 1.0f);
+}
+
+TEST_F(RelightByOpenGl, BadInputIsOneLine) {
+  write_file(folder / "bad.glsl", "vec3 light(vec3 P, vec3 N) {\n  return vec2(1.0);\n}\n");
+  const auto expect = [&](const std::string& lamp, int code, const std::string& text, const Names& more) {
+    const test::Outcome outcome = relight("x.exr", {lamp}, more);
+    EXPECT_EQ(outcome.code, code) << lamp << outcome.err;
+    EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  const Names gl{"--device", "gl"};
+  const std::string good = "shader,file=" + example("point.glsl") + ",position=0,1,0";
+  expect("shader,file=" + file("bad.glsl") + ",position=0,1,0", 1, "bad.glsl:2: `return vec2(1.0);`: ", gl);
+  expect("shader,file=" + file("none.glsl") + ",position=0,1,0", 1, "none.glsl", gl);
+  expect("shader,position=0,1,0", 2, "names no file", gl);
+  expect(good + ",rang=2", 2, "did you mean 'range'", gl);
+  expect(good + ",shadow=round", 2, "none, cube, sun", gl);
+  expect(good, 2, "light shaders need OpenGL", {"--device", "cpu"});
+  expect(good, 2, "64 to 16384", {"--device", "gl", "--shadow-map", "2"});
+  write_file(folder / "nan.glsl", "vec3 light(vec3 P, vec3 N) {\n  return vec3(sqrt(P.x));\n}\n");
+  const test::Outcome holed = relight("x.exr", {"shader,file=" + file("nan.glsl") + ",position=0,1,0"}, gl);
+  EXPECT_EQ(holed.code, 0) << holed.err;
+  EXPECT_NE(holed.err.find("nan.glsl: NaN or infinity, taken for darkness: "), std::string::npos)
+      << holed.err;
+  for (const float v : read_exr(file("x.exr")).data) ASSERT_TRUE(std::isfinite(v));
+}
+
+}  // namespace
+}  // namespace sconce

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moved lamps by OpenGL against the CPU's: direct light outside a band of two shadow texels to 1e-3, indirect
+// light by the same operator, light shaders against lamps of the same kind.
+#include <gtest/gtest.h>
+
+#include "core/sobol.h"
+#include "gpu/direct_light.h"
+#include "gpu/transfer.h"
+#include "gpu/view.h"
+#include "import/lights.h"
+#include "relight/relight.h"
+#include "relit_room.h"
+
+namespace sconce {
+namespace {
+
+using namespace test;
+
+/// Direct light alone, by rays and by OpenGL, at the middles of pixels.
+class DirectLight : public testing::Test {
+ protected:
+  DirectLight() : package_(Package::open(room().package)), view_(package_) {
+    params_.width = 96, params_.height = 96, params_.samples = 1;
+    camera_ = view_.camera("");
+    black_.assign(static_cast<std::size_t>(package_.manifest().pages),
+                  Image::rgb(package_.manifest().width, package_.manifest().height));
+    mix_.weights.assign(package_.manifest().groups.size(), Rgb(0));
+  }
+
+  Image by_rays(const std::vector<Light>& lights, const std::vector<MovedGroup>& groups = {},
+                int samples = 1) {
+    lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(), lights, groups);
+    params_.samples = samples;
+    return view_.render(camera_, mix_, black_, params_, {}, nullptr,
+                        [&](const SurfacePoint& at, int x, int y, uint32_t sample) {
+                          return lamps_->illuminance(
+                              at, mix32(static_cast<uint32_t>(x), static_cast<uint32_t>(y)), sample);
+                        });
+  }
+  Image by_opengl(std::vector<gpu::LampShader> lamps) {
+    gpu::View view(context_, view_.shown());
+    gpu::DirectLight light(context_, view.geometry(), view_.world().bounds, std::move(lamps));
+    gpu::AddedLight* added[] = {&light};
+    view.draw(camera_, mix_.weights, gpu::MixedPages(context_, black_), params_, {}, {.added = added});
+    mishaps_ = light.mishaps();
+    return view.linear();
+  }
+  /// The lamps of the last by_rays().
+  std::vector<gpu::LampShader> same_lamps(int patches = 16) const {
+    return gpu::lamp_shaders(lamps_->lamps(), lamps_->chosen(), patches, kSide);
+  }
+
+  /// Whether the edge of a shadow is at most two texels away from what a pixel sees.
+  bool near_edge(int x, int y, const gpu::LampShader& lamp) const {
+    const Lens lens(camera_, params_);
+    const Hit hit = view_.tracer().closest(
+        {lens.eye(), lens.direction({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f})});
+    if (!hit) return false;
+    const SurfacePoint at = surface_point(view_.world(), hit);
+    const Mat3 frame(lamp.frame);
+    const bool sun = lamp.shadow == gpu::LampShader::Shadow::sun;
+    const Vec3 lamp_at(lamp.frame[3]), to = at.position - lamp_at;
+    // A texel's steps on the map's plane through the point: shadow_map.cpp.
+    Vec3 step[2]{frame[0], frame[1]};
+    float texel = 2 * view_.world().bounds.diagonal() / (kSide - 6);  // no less than a fitted one
+    if (lamp.shadow == gpu::LampShader::Shadow::map) {
+      texel = glm::dot(to, -frame[2]) * std::tan(lamp.opening / 2) / (kSide / 2 - 3);
+    } else if (!sun) {
+      const Vec3 local = glm::abs(to * frame);
+      const int major = local.x >= local.y && local.x >= local.z ? 0 : local.y >= local.z ? 1 : 2;
+      step[0] = frame[(major + 1) % 3], step[1] = frame[(major + 2) % 3];
+      texel = local[major] / (kSide / 2 - 3);
+    }
+    int lit = 0;
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j) {
+        const Vec3 through =
+            at.position + texel * (static_cast<float>(i) * step[0] + static_cast<float>(j) * step[1]);
+        const Vec3 from = sun ? through + 10.0f * frame[2] : lamp_at;
+        const Vec3 direction = glm::normalize(through - from);
+        const float plane =
+            glm::dot(at.position - from, at.geometric_normal) / glm::dot(direction, at.geometric_normal);
+        const Hit first = view_.tracer().closest({from, direction});
+        lit += first && first.distance < plane * (1 - 1e-4f) ? 0 : 1;
+      }
+    return lit != 0 && lit != 25;
+  }
+
+  void expect_alike(const Light& light) {
+    const Image rays = by_rays({light});
+    const std::vector<gpu::LampShader> lamps = same_lamps();
+    const Image device = by_opengl(lamps);
+    ASSERT_EQ(lamps.size(), 1u);
+    double mean = 0;
+    for (const float v : rays.data) mean += static_cast<double>(v) / static_cast<double>(rays.data.size());
+    std::size_t compared = 0, alike = 0, banded = 0;
+    for (int y = 0; y < rays.height; ++y)
+      for (int x = 0; x < rays.width; ++x) {
+        if (near_edge(x, y, lamps[0])) {
+          ++banded;
+          continue;
+        }
+        const Rgb a = rays.rgb_at(x, y), b = device.rgb_at(x, y);
+        ++compared;
+        alike += std::abs(a.g - b.g) <= 1e-3f * std::max(a.g, 0.01f * static_cast<float>(mean)) ? 1 : 0;
+      }
+    EXPECT_GT(mean, 0.5);
+    EXPECT_GT(compared, 9 * rays.pixels() / 10) << banded;
+    EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(compared)) << "of " << compared;
+  }
+
+  static constexpr int kSide = 1024;
+  const Package package_;
+  const View view_;
+  const gpu::Context context_;
+  Camera camera_;
+  PictureParams params_;
+  std::vector<Image> black_;
+  MixSpec mix_;
+  std::unique_ptr<MovedLamps> lamps_;
+  std::vector<gpu::DirectLight::Report> mishaps_;
+};
+
+TEST_F(DirectLight, PointsSpotsAndSunsOutsideTheEdgesOfShadows) {
+  for (const char* text :
+       {"point,position=-0.3,1.5,0.2,lumens=400", "point,position=0.35,1.2,-0.3,lumens=400,range=2",
+        "spot,position=-0.2,1.9,0.3,target=0.3,0.5,-0.4,lumens=400,inner=10,outer=40",
+        "spot,position=0.35,1.9,-0.35,target=0.3,0,0,lumens=400,outer=85",
+        "sun,direction=0.3,-0.2,-1,intensity=500"}) {
+    SCOPED_TRACE(text);
+    expect_alike(parse_light(text, "test"));
+  }
+}
+
+TEST_F(DirectLight, ManyPatchesAreAnAreaLamp) {
+  const Image rays = by_rays({}, {{Id<LightGroup>(0), Rgb(1)}}, 64);
+  double before = 1;
+  for (const int patches : {1, 4, 16}) {
+    const double error = error_of(rays, by_opengl(same_lamps(patches)));
+    EXPECT_LT(error, before) << patches;
+    before = error;
+  }
+  EXPECT_LT(before, 0.04);
+}
+
+gpu::LampShader own(const std::string& text, const Vec3& position = Vec3(0, 1.5f, 0)) {
+  gpu::LampShader lamp;
+  lamp.name = lamp.file = "own.glsl";
+  lamp.text = text;
+  lamp.frame[3] = glm::vec4(position, 1);
+  return lamp;
+}
+
+// With all its controls left alone an uber-light is a point that shines forwards; each control takes light
+// away.
+TEST_F(DirectLight, AnUberLightIsAPointAndLess) {
+  const Vec3 at(0, 1.5f, 0);
+  Light point = parse_light("point,position=0,1.5,0,intensity=100", "test");
+  gpu::LampShader uber = own(read_file(example("uber.glsl")), at);
+  uber.frame = point.frame;  // downwards
+  uber.intensity = Rgb(100);
+  const Image all = by_rays({point}), open = by_opengl({uber});
+  const Lens lens(camera_, params_);
+  std::size_t below = 0, alike = 0;
+  for (int y = 0; y < all.height; ++y)
+    for (int x = 0; x < all.width; ++x) {
+      const Hit hit = view_.tracer().closest(
+          {lens.eye(), lens.direction({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f})});
+      if (!hit || near_edge(x, y, uber)) continue;
+      if (view_.world().position(hit.triangle, hit.barycentric).y < 1.499f) {
+        ++below;
+        alike +=
+            std::abs(open.rgb_at(x, y).g - all.rgb_at(x, y).g) <= 1e-3f * all.rgb_at(x, y).g + 1e-4f ? 1 : 0;
+      } else if (view_.world().position(hit.triangle, hit.barycentric).y > 1.501f) {
+        EXPECT_EQ(open.rgb_at(x, y), Rgb(0));
+      }
+    }
+  EXPECT_GT(below, 4000u);
+  EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(below));
+  const auto light = [&](std::vector<gpu::LampUniform> uniforms) {
+    uber.uniforms = std::move(uniforms);
+    double sum = 0;
+    for (const float v : by_opengl({uber}).data) sum += static_cast<double>(v);
+    return sum;
+  };
+  const double whole = light({});
+  for (const std::vector<gpu::LampUniform>& uniforms :
+       {std::vector<gpu::LampUniform>{{"width", {30}, ""}, {"height", {20}, ""}},
+        {{"barn_left", {10}, ""}},
+        {{"barn_top", {10}, ""}},
+        {{"near_start", {1}, ""}, {"near_end", {1.2f}, ""}},
+        {{"far_start", {1}, ""}, {"far_end", {1.2f}, ""}}}) {
+    const double some = light(uniforms);
+    EXPECT_GT(some, 0.02 * whole) << uniforms[0].name;
+    EXPECT_LT(some, 0.98 * whole) << uniforms[0].name;
+  }
+  // A rectangle of the same width and height holds its ellipse.
+  EXPECT_GT(light({{"width", {30}, ""}, {"height", {20}, ""}, {"roundness", {0}, ""}}),
+            light({{"width", {30}, ""}, {"height", {20}, ""}}));
+  EXPECT_NEAR(light({{"barn_left", {-95}, ""}, {"edge", {1}, ""}}), 0, 1e-6);
+}
+
+TEST_F(DirectLight, ShadowMapsTooLargeSaySo) {
+  by_rays({});
+  gpu::LampShader lamp = own("vec3 light(vec3 P, vec3 N) { return vec3(1.0); }");
+  lamp.side = context_.capabilities().max_texture_size + 1;
+  try {
+    by_opengl({lamp});
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_TRUE(std::string(e.what()).starts_with("shadow map of own.glsl: ")) << e.what();
+  }
+}
+
+TEST_F(DirectLight, WhatOpenGlDoesNotMoveIsNamed) {
+  Light sky;
+  sky.name = "dome";
+  sky.intensity = Rgb(1);
+  sky.shape = SkyLight{};
+  by_rays({sky});
+  EXPECT_THROW(same_lamps(), gpu::UnknownLamp);
+}
+
+TEST_F(DirectLight, NoNumberIsCountedAndDark) {
+  by_rays({});
+  const Image plain = by_opengl({own("vec3 light(vec3 P, vec3 N) { return vec3(1.0); }")});
+  EXPECT_TRUE(mishaps_.empty());
+  // Everything left of the middle, by a square root and by a division.
+  const Image holed =
+      by_opengl({own("vec3 light(vec3 P, vec3 N) { return vec3(1.0, P.x < 0.0 ? 1.0 / max(P.x, 0.0) : 1.0, "
+                     "sqrt(P.x) * 0.0 + 1.0); }")});
+  ASSERT_EQ(mishaps_.size(), 1u);
+  EXPECT_EQ(mishaps_[0].file, "own.glsl");
+  std::size_t dark = 0;
+  for (std::size_t i = 0; i < holed.data.size(); i += 3) {
+    EXPECT_TRUE(std::isfinite(holed.data[i]));
+    if (holed.data[i] == plain.data[i]) continue;
+    EXPECT_EQ(holed.data[i], 0);
+    EXPECT_LE(mishaps_[0].pixels.first, i / 3);
+    ++dark;
+  }
+  EXPECT_GT(dark, 1000u);
+  EXPECT_GE(mishaps_[0].pixels.count, dark);
+}
+
+/// Error's text of compiling a lamp.
+std::string complaint(const std::string& text, const std::vector<gpu::LampUniform>& uniforms = {}) {
+  const gpu::Context context;
+  try {
+    const gpu::LampProgram program("own.glsl", text);
+    gpu::LampShader lamp = own(text);
+    lamp.uniforms = uniforms;
+    const gpu::LampValues values(context, lamp, program);
+    return "";
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+TEST(LightShader, MistakesAreShownWithTheUsersLine) {
+  const std::string wrong =
+      complaint("// one\nuniform float a;\nvec3 light(vec3 P, vec3 N) {\n  return vec3(b);\n}\n");
+  EXPECT_TRUE(wrong.starts_with("own.glsl:4: `return vec3(b);`: ")) << wrong;
+  EXPECT_EQ(wrong.find('\n'), std::string::npos) << wrong;
+  EXPECT_EQ(complaint("vec3 shine(vec3 P) { return P; }"),
+            "own.glsl: defines no light (allowed: vec3 light(vec3 P, vec3 N) { ... })");
+  const std::string good =
+      "uniform float width;\nuniform vec2 size;\nuniform sampler2D slide;\nvec3 light(vec3 P, vec3 N) {\n"
+      "  return texture(slide, P.xy * size).rgb * width;\n}\n";
+  EXPECT_EQ(complaint(good, {{"width", {2}, "2"}, {"size", {1, 2}, "1,2"}}), "");
+  const std::string unknown = complaint(good, {{"widh", {2}, "2"}});
+  EXPECT_NE(unknown.find("did you mean 'width'?"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("size"), std::string::npos) << unknown;
+  EXPECT_EQ(complaint(good, {{"size", {1}, "1"}}), "own.glsl: size: '1' does not fit (allowed: 2 numbers)");
+  const std::string missing = complaint(good, {{"slide", {}, "nowhere.png"}});
+  EXPECT_NE(missing.find("nowhere.png"), std::string::npos) << missing;
+}
+
+}  // namespace
+}  // namespace sconce
