@@ -75,7 +75,7 @@ class GlRelightStage : public RelightStage {
              const PictureParams& params, const Progress& progress) override {
     view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
     for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
-      std::string line = report.file + ": NaN or infinity, taken for darkness:";
+      std::string line = report.file + ": NaN or infinity, painted over:";
       if (report.cloud.count > 0)
         line += fmt::format(" {} of {} gather samples (first: {})", report.cloud.count, job_.op.lit.size(),
                             report.cloud.first);

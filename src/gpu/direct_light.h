@@ -13,7 +13,7 @@
 
 namespace sconce::gpu {
 
-/// What a lamp's shader answered that is no number; it counts as darkness.
+/// What a lamp's shader answered that is no number; its neighbours paint it over.
 struct Mishap {
   uint64_t count = 0;
   uint32_t first = 0;  ///< the lowest number of a point, or of a pixel: y * width + x

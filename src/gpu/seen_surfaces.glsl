@@ -12,7 +12,8 @@ struct SconceSurface {
 };
 
 SconceSurface sconce_surface(ivec2 at) {
-  if (any(greaterThanEqual(at, imageSize(sconce_seen)))) return SconceSurface(false, vec3(0), vec3(0), vec3(0), vec3(0));
+  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, imageSize(sconce_seen))))
+    return SconceSurface(false, vec3(0), vec3(0), vec3(0), vec3(0));
   vec4 place = texelFetch(sconce_place, at, 0), normals = texelFetch(sconce_normals, at, 0);
   vec3 albedo = texelFetch(sconce_albedo, at, 0).rgb;
   return SconceSurface(place.w != 0.0 && albedo != vec3(0.0), place.xyz, sconce_octahedral(normals.xy),
