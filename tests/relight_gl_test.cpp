@@ -10,6 +10,7 @@
 #include "import/lights.h"
 #include "relight/relight.h"
 #include "relit_room.h"
+#include "transfer/folded_bounces.h"
 
 namespace sconce {
 namespace {
@@ -253,6 +254,41 @@ TEST_F(DirectLight, NoNumberIsCountedAndPaintedOver) {
   }
   EXPECT_GT(dark, 1000u);
   EXPECT_GE(mishaps_[0].pixels.count, dark);
+}
+
+// The operator of the room's lightmap. Slots differ where edges of shadows cross them, and nowhere else.
+TEST_F(DirectLight, OnTheCloudAndThroughTheOperator) {
+  const Operator op = open_operator(package_.path() / "operators" / "lightmap.bin");
+  by_rays({parse_light("point,position=-0.3,1.5,0.2,lumens=400", "test")});
+  const std::vector<Rgbx> rays = light_cloud(op, *lamps_);
+
+  const gpu::View view(context_, view_.shown());
+  gpu::DirectLight light(context_, view.geometry(), view_.world().bounds, same_lamps());
+  const gpu::Transfer transfer(context_, op);
+  light.light_cloud({context_, op.lit, "cloud"}, op.slots(), op.points_per_slot, transfer.exitance());
+  std::vector<Rgbx> device(op.slots());
+  transfer.exitance().read(std::span(device).size_bytes(), device.data());
+  std::size_t lit = 0, alike = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (rays[i][1] == 0) continue;
+    ++lit;
+    alike += std::abs(rays[i][1] - device[i][1]) <= 1e-3f * rays[i][1] ? 1 : 0;
+  }
+  EXPECT_GT(lit, rays.size() / 2);
+  EXPECT_GT(static_cast<double>(alike), 0.97 * static_cast<double>(lit)) << "of " << lit;
+
+  std::vector<Rgbx> coefficients = rays;
+  std::vector<Rgb> expected(op.gather.rows);
+  FoldedBounces(op).indirect(coefficients, expected);
+  transfer.exitance().write(std::span(rays).size_bytes(), rays.data());
+  transfer.apply();
+  const std::vector<Rgb> seen = transfer.read();
+  double mean = 0;
+  for (const Rgb& e : expected) mean += static_cast<double>(e.g) / static_cast<double>(expected.size());
+  ASSERT_GT(mean, 0);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    ASSERT_NEAR(seen[i].g, expected[i].g, 1e-3f * std::max(expected[i].g, 0.01f * static_cast<float>(mean)))
+        << i;
 }
 
 /// Error's text of compiling a lamp.
