@@ -14,6 +14,7 @@ using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 }  // namespace
 
 FoldedBounces::FoldedBounces(const Operator& op) : op_(op), rank_(ClusterRows::kRank * op.bounce.clusters()) {
+  if (op.sweeps == 0) return;
   const ClusterRows& k = op.bounce;
   const auto n = static_cast<Eigen::Index>(rank_);
   std::array<Matrix, 3> c{Matrix(n, n), Matrix(n, n), Matrix(n, n)};
@@ -44,8 +45,9 @@ FoldedBounces::FoldedBounces(const Operator& op) : op_(op), rank_(ClusterRows::k
 }
 
 void FoldedBounces::apply(std::span<Rgbx> exitance) const {
-  // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
   haar_forward(exitance);
+  if (op_.sweeps == 0) return;
+  // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
   std::vector<Rgbx> once = reflected_once(op_, exitance), sum = once;
   haar_forward(once);
   std::vector<Rgb> seen(rank_), all(rank_);
