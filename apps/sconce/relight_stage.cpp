@@ -80,8 +80,8 @@ class GlRelightStage : public RelightStage {
         line += fmt::format(" {} of {} gather samples (first: {})", report.cloud.count, job_.op.lit.size(),
                             report.cloud.first);
       if (report.pixels.count > 0)
-        line += fmt::format("{} {} pixels of {} passes (first: {})", report.cloud.count > 0 ? "," : "",
-                            report.pixels.count, params.samples, place(report.pixels.first, params.width));
+        line += fmt::format("{} {} pixels of all passes (first: {})", report.cloud.count > 0 ? "," : "",
+                            report.pixels.count, place(report.pixels.first, params.width));
       progress.warn(line);
     }
     return view_.linear();

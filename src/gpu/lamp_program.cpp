@@ -114,7 +114,8 @@ LampValues::LampValues(const Context& context, const LampShader& lamp, const Lam
       throw UsageError(where, "is of a type that cannot be set here",
                        "float, vec2, vec3, vec4, int, bool, sampler2D");
     if (given.numbers.size() != static_cast<std::size_t>(count))
-      throw UsageError(where, "'" + given.text + "' does not fit", std::to_string(count) + " numbers");
+      throw UsageError(where, "'" + given.text + "' does not fit",
+                       count == 1 ? "a number" : std::to_string(count) + " numbers");
     numbers_.push_back({uniform, given.numbers});
   }
   context.check("preparing " + lamp.file);
