@@ -89,6 +89,7 @@ std::optional<Light> GltfLuminaires::read(const tinygltf::Node& node, const Gltf
         file = text_of(extra, "file");
         strength.dim = number_of(extra, "dim", 1);
         if (extra.Has("flux")) strength.flux = number_of(extra, "flux", 0);
+        if (extra.Has("exact_below")) strength.exact_below = number_of(extra, "exact_below", 0);
         if (extra.Has("cct")) {
           const double cct = number_of(extra, "cct", 0);
           if (!(cct >= kKelvinMin && cct <= kKelvinMax))
@@ -104,13 +105,14 @@ std::optional<Light> GltfLuminaires::read(const tinygltf::Node& node, const Gltf
     const auto path = find_luminaire_file(source_.path.parent_path(), file);
     if (!path)
       throw Error(source_.at(place), "names the luminaire '" + file + "', which is not there",
-                  "an .ies or .ldt beside the scene");
+                  "an .ies, .ldt or light field (.exr) beside the scene");
     id = files_.load(*path);
     // In place of a lamp it shines as that would.
     if (extension(node.extensions, "KHR_lights_punctual") == nullptr) frame = hanging(here.transform);
   }
-  if (!(strength.dim >= 0) || (strength.flux && !(*strength.flux >= 0)))
-    throw Error(source_.at(place), "has a negative strength", "multiplier, dim and flux from 0 on");
+  if (!(strength.dim >= 0) || strength.flux.value_or(0) < 0 || strength.exact_below.value_or(0) < 0)
+    throw Error(source_.at(place), "has a negative number",
+                "multiplier, dim, flux and exact_below from 0 on");
   Light light = make_luminaire_light(scene_, id, frame, strength, source_.at(place));
   if (!here.name.empty() && luminaire_of_node_name(here.name).empty()) light.name = here.name;
   light.group_name = here.light_group;

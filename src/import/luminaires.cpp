@@ -5,22 +5,46 @@
 #include <cctype>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "photometry/formats.h"
+#include "photometry/light_field_file.h"
 
 namespace sconce {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr double kFarStep = 5;  // degrees of the far field that a light field also is
+
+/// The far field of a light field, brought to the same flux.
+Photometry table_of(const LightField& field, const fs::path& file) {
+  Photometry out = far_field(NearLamp(field), kFarStep);
+  const double table = flux(out), images = flux(field);
+  if (!(table > 0 && images > 0)) throw Error(file.string(), "is a light field without light");
+  for (double& candela : out.candela) candela *= images / table;
+  return out;
+}
+
+}  // namespace
+
 Id<Luminaire> LuminaireFiles::load(const fs::path& file) {
   const auto found = known_.find(file);
   if (found != known_.end()) return found->second;
+  const std::string name = file.filename().string();
+  if (lower(file.extension().string()) == ".exr") {
+    auto field = std::make_shared<LightField>(read_light_field(file));
+    Photometry far = table_of(*field, file);
+    scene_.luminaires.push_back({name, std::move(far), std::move(field)});
+    return known_[file] = Id<Luminaire>(scene_.luminaires.size() - 1);
+  }
   Photometry photometry = read_photometry(file);
   for (const std::string& note : photometry.notes) progress_.warn(file.string() + ": " + note);
-  return known_[file] = add(file.filename().string(), std::move(photometry));
+  return known_[file] = add(name, std::move(photometry));
 }
 
 Id<Luminaire> LuminaireFiles::add(const std::string& name, Photometry photometry) {
-  scene_.luminaires.push_back({name, std::move(photometry)});
+  scene_.luminaires.push_back({name, std::move(photometry), nullptr});
   return Id<Luminaire>(scene_.luminaires.size() - 1);
 }
 
@@ -41,7 +65,13 @@ Light make_luminaire_light(const Scene& scene, Id<Luminaire> luminaire, const Ma
   light.name = fs::path(scene[luminaire].name).stem().string();
   light.frame = frame;
   light.intensity = strength.color * static_cast<float>(factor);
-  light.shape = LuminaireLight{luminaire};
+  LuminaireLight shape{luminaire};
+  if (strength.exact_below) {
+    if (!scene[luminaire].field)
+      throw Error(where, "asks for exact_below, but " + scene[luminaire].name + " is no light field");
+    shape.exact_below = static_cast<float>(*strength.exact_below);
+  }
+  light.shape = shape;
   return light;
 }
 

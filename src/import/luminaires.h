@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photometric files as lamps of a scene, whoever names them: a side file or glTF.
+// Photometric files and light fields as lamps of a scene, whoever names them: a side file or glTF.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace sconce {
 
-/// Photometric files read so far; lamps of one file share its data.
+/// Photometric files and light fields (.exr) read so far; lamps of one file share its data.
 class LuminaireFiles {
  public:
   LuminaireFiles(Scene& scene, const Progress& progress) : scene_(scene), progress_(progress) {}
@@ -33,11 +33,13 @@ struct LuminaireStrength {
   std::optional<double> flux;  ///< lm
   Rgb color{1.0f};             ///< luminance 1
   double dim = 1;
+  std::optional<double> exact_below;  ///< LuminaireLight's
 };
 
 /// A lamp from a luminaire: its Light::intensity, with LM-63's TILT by how far nadir is from the world's down
 /// (-y).
-/// @throws Error (naming `where`) where a flux is asked of a luminaire without light
+/// @throws Error (naming `where`) where a flux is asked of a luminaire without light, or exact_below of a
+/// table
 Light make_luminaire_light(const Scene& scene, Id<Luminaire> luminaire, const Mat4& frame,
                            const LuminaireStrength& strength, const std::string& where);
 

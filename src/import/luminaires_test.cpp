@@ -153,7 +153,8 @@ TEST(Luminaires, BadInput) {
     return all.substr(std::min(all.size(), all.find("room.toml")));
   };
   EXPECT_EQ(side("at = [0,0,0]"),
-            "room.toml:1: [[luminaire]]: has no file (allowed: file = an .ies or .ldt beside this one)");
+            "room.toml:1: [[luminaire]]: has no file (allowed: file = an .ies, .ldt or light field (.exr) "
+            "beside this one)");
   EXPECT_NE(side("file = \"none.ies\"\nat = [0,0,0]").find("room.toml:2: [[luminaire]] file: "),
             std::string::npos);
   EXPECT_NE(side("file = \"lamp.ies\"\nat = [0,0,0]\ncount = [2, 2]").find("stands without pitch"),

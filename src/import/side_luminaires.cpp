@@ -36,6 +36,7 @@ LuminaireStrength strength_of(const SideTable& table) {
   LuminaireStrength out;
   out.flux = table.not_negative("flux");
   out.dim = table.not_negative("dim").value_or(1);
+  out.exact_below = table.not_negative("exact_below");
   if (table.has("cct") && table.has("color")) table.fail("cct", "stands beside color", "one of the two");
   if (const auto cct = table.number("cct")) {
     if (*cct < kKelvinMin || *cct > kKelvinMax) table.fail("cct", "is out of range", "1000 to 11000");
@@ -72,9 +73,9 @@ std::vector<Vec3> grid(const SideTable& table, const Vec3& at) {
 void apply_luminaire(const SideContext& context, const SideNode& node) {
   const SideTable table(context.path.string(), "[[luminaire]]", node,
                         {"file", "name", "at", "aim", "direction", "roll", "group", "flux", "cct", "color",
-                         "dim", "count", "pitch"});
+                         "dim", "count", "pitch", "exact_below"});
   const auto file = table.text("file");
-  if (!file) table.fail({}, "has no file", "file = an .ies or .ldt beside this one");
+  if (!file) table.fail({}, "has no file", "file = an .ies, .ldt or light field (.exr) beside this one");
   const auto at = table.vector("at");
   if (!at) table.fail({}, "has no place", "at = [x, y, z] in metres");
   if (table.has("aim") && table.has("direction"))
@@ -95,7 +96,7 @@ void apply_luminaire(const SideContext& context, const SideNode& node) {
     const Vec3 towards = aim ? *aim - places[i] : direction;
     if (!(glm::length(towards) > 0)) table.fail(aim ? "aim" : "direction", "has no length");
     Light light = make_luminaire_light(context.scene, luminaire, hanging(places[i], towards, roll), strength,
-                                       table.where("flux"));
+                                       table.where(strength.flux ? "flux" : "exact_below"));
     light.name = table.text("name").value_or(light.name);
     if (places.size() > 1) light.name += fmt::format(".{:03}", i + 1);
     light.group_name = table.text("group").value_or("");

@@ -2,6 +2,7 @@
 #include "light/bounds.h"
 
 #include "light/luminaire.h"
+#include "light/near_field.h"
 
 namespace sconce {
 
@@ -37,6 +38,12 @@ LampBounds make_bounds(std::span<const Lamp> lamps, float scene_radius2) {
                           if (!dark_above(*l.table)) return;
                           axis = -l.to_world[2];
                           plane = glm::dot(axis, center) - radius;
+                        },
+                        [&](const NearFieldLamp& l) {
+                          center = l.position + l.to_world * l.field->center();
+                          radius = l.field->radius();
+                          axis = -l.to_world[2];
+                          plane = glm::dot(axis, center);
                         }},
                lamps[i].shape);
     b.x.push_back(center.x), b.y.push_back(center.y), b.z.push_back(center.z);

@@ -3,6 +3,7 @@
 // row of the variant (the compiler then lists what is missing).
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,11 +15,14 @@
 
 namespace sconce {
 
+class NearField;
+
 /// Light that arrives at a point from one lamp along one direction.
 struct LightSample {
   Vec3 direction;      ///< from the point to the lamp, unit
   float distance = 0;  ///< metres; kInfinite for sun and sky
-  Rgb radiance;        ///< cd/m2; for delta lamps the illuminance on a facing surface, lux
+  Rgb radiance;  ///< cd/m2; for delta lamps the illuminance on a facing surface, lux. Light fields have terms
+                 ///< < 0
   float pdf = 0;       ///< per steradian, of this direction given this lamp; 1 for delta lamps
   bool delta = false;  ///< no direction picked at random ever meets this lamp
 };
@@ -30,7 +34,8 @@ struct EmittedLight {
   Vec3 normal{
       0};  ///< of the lamp's surface there, on the side of `direction`; zero where there is no surface
   Vec3 direction;  ///< away from the lamp, unit
-  Rgb flux;        ///< lm per channel; its mean is the lamp's flux, for sun and sky the flux through the disk
+  Rgb flux;  ///< lm per channel; its mean is the lamp's flux, for sun and sky the flux through the disk. < 0
+             ///< where a light field is
 };
 
 /// Point or spot: I / d2, windowed by KHR_lights_punctual's range and cone.
@@ -116,7 +121,17 @@ struct LuminaireLamp {
   double flux = 0;                    ///< of the table, lm
 };
 
-using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp, LuminaireLamp>;
+/// A lamp measured from near: every term of its light field a textured spot at its filter's centre, or points
+/// of the sampling plane where that is not good enough.
+struct NearFieldLamp {
+  std::shared_ptr<const NearField> field;  ///< shared by all lamps of one luminaire
+  Vec3 position;                           ///< of the light field's origin
+  Mat3 to_world{1.0f};                     ///< of the luminaire's frame
+  Rgb scale;                               ///< multiplies the light field
+  float exact_below = 0;                   ///< LuminaireLight's
+};
+
+using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp, LuminaireLamp, NearFieldLamp>;
 
 struct Lamp {
   std::string name;

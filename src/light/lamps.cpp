@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
+
 #include "light/bounds.h"
 #include "light/lamp.h"
 #include "light/luminaire.h"
 #include "light/mesh_lamp.h"
+#include "light/near_field.h"
 #include "light/punctual.h"
 #include "light/sky.h"
 
@@ -10,17 +13,29 @@ namespace sconce {
 
 namespace {
 
-Lamp make_lamp(const Scene& scene, const Light& light) {
-  return std::visit(
-      Overload{
-          [&](const PointLight& p) { return make_punctual(light, light.intensity, p.range, 0, 0, false); },
-          [&](const SpotLight& s) {
-            return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
-          },
-          [&](const SunLight&) { return make_sun(light); },
-          [&](const SkyLight& s) { return make_sky(light, s); },
-          [&](const LuminaireLight& l) { return make_luminaire(light, scene[l.luminaire].photometry); }},
-      light.shape);
+/// Light fields made ready so far, by luminaire.
+using NearFields = std::map<uint32_t, std::shared_ptr<const NearField>>;
+
+Lamp make_measured(const Scene& scene, const Light& light, const LuminaireLight& measured,
+                   NearFields& known) {
+  const Luminaire& luminaire = scene[measured.luminaire];
+  if (!luminaire.field) return make_luminaire(light, luminaire.photometry);
+  auto& field = known[measured.luminaire.value];
+  if (!field) field = std::make_shared<NearField>(*luminaire.field);
+  return make_near_field(light, field, measured.exact_below);
+}
+
+Lamp make_lamp(const Scene& scene, const Light& light, NearFields& fields) {
+  return std::visit(Overload{[&](const PointLight& p) {
+                               return make_punctual(light, light.intensity, p.range, 0, 0, false);
+                             },
+                             [&](const SpotLight& s) {
+                               return make_punctual(light, light.intensity, s.range, s.inner, s.outer, true);
+                             },
+                             [&](const SunLight&) { return make_sun(light); },
+                             [&](const SkyLight& s) { return make_sky(light, s); },
+                             [&](const LuminaireLight& l) { return make_measured(scene, light, l, fields); }},
+                    light.shape);
 }
 
 }  // namespace
@@ -28,9 +43,10 @@ Lamp make_lamp(const Scene& scene, const Light& light) {
 Lamps::Lamps(const Scene& scene, const World& world) : scene_(&scene), world_(&world) {
   const float radius = std::max(1e-6f, 0.5f * world.bounds.diagonal());
   scene_radius2_ = radius * radius;
+  NearFields fields;
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<SkyLight>(light.shape)) skies_.push_back(static_cast<uint32_t>(lamps_.size()));
-    lamps_.push_back(make_lamp(scene, light));
+    lamps_.push_back(make_lamp(scene, light, fields));
   }
   for (uint32_t t = 0; t < world.size();) {
     uint32_t end = t + 1;
@@ -51,6 +67,7 @@ bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out)
                [&](const SunLamp& l) { return sconce::sample(l, out); },
                [&](const SkyLamp& l) { return sconce::sample(l, u, out); },
                [&](const LuminaireLamp& l) { return sconce::sample(l, x, u, out); },
+               [&](const NearFieldLamp& l) { return sconce::sample(l, x, u, out); },
                [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u, out); }},
       lamps_[i].shape);
 }
@@ -63,7 +80,8 @@ EmittedLight Lamps::emit(std::size_t i, Vec2 where, Vec2 whither) const {
                [&](const SunLamp& l) { return sconce::emit(l, center, radius, where); },
                [&](const SkyLamp& l) { return sconce::emit(l, center, radius, where, whither); },
                [&](const MeshLamp& l) { return sconce::emit(l, *scene_, *world_, where, whither); },
-               [&](const LuminaireLamp& l) { return sconce::emit(l, where, whither); }},
+               [&](const LuminaireLamp& l) { return sconce::emit(l, where, whither); },
+               [&](const NearFieldLamp& l) { return sconce::emit(l, where, whither); }},
       lamps_[i].shape);
 }
 

@@ -6,6 +6,7 @@
 #include "package/glb.h"
 #include "package/json.h"
 #include "photometry/formats.h"
+#include "photometry/light_field.h"
 
 namespace sconce {
 
@@ -219,7 +220,9 @@ class Reader {
       light.frame = matrix;
       light.group_name = group_of(v);
       light.intensity = use.at("color").rgb() * use.at("multiplier").real();
-      light.shape = LuminaireLight{Id<Luminaire>(use.at("light").index(scene_.luminaires.size()))};
+      LuminaireLight measured{Id<Luminaire>(use.at("light").index(scene_.luminaires.size()))};
+      if (v.has("extras")) measured.exact_below = static_cast<float>(v.at("extras").number("exact_below", 0));
+      light.shape = measured;
       scene_.lights.push_back(std::move(light));
     } else if (v.has("extensions")) {
       const JsonValue lights = root_.at("extensions").at(kLights).at("lights");
@@ -233,7 +236,32 @@ class Reader {
   void luminaire(const JsonValue& v) {
     const std::string name = v.at("name").text();
     scene_.luminaires.push_back(
-        {name, parse_ies(view(v.at("bufferView")), where_ + ", luminaire '" + name + "'")});
+        {name, parse_ies(view(v.at("bufferView")), where_ + ", luminaire '" + name + "'"), nullptr});
+    if (v.has("extras") && v.at("extras").has("light_field"))
+      scene_.luminaires.back().field = std::make_shared<LightField>(field(v.at("extras").at("light_field")));
+  }
+
+  LightField field(const JsonValue& v) {
+    constexpr int64_t kMost = 1 << 16;
+    const auto count = [&](const char* key) { return static_cast<int>(v.at(key).integer(1, kMost)); };
+    const auto pair = [&](const char* key) {
+      return glm::dvec2(v.at(key).at(std::size_t{0}).number(), v.at(key).at(std::size_t{1}).number());
+    };
+    LightField out;
+    const std::optional<NearBasis> basis = basis_named(v.at("basis").text());
+    if (!basis) v.at("basis").fail("is '" + v.at("basis").text() + "'", "bell, spline");
+    out.basis = *basis;
+    out.columns = count("columns"), out.rows = count("rows");
+    out.width = count("width"), out.height = count("height");
+    out.spacing = v.at("spacing").number(), out.distance = v.at("distance").number();
+    out.pixel = v.at("pixel").number();
+    out.first = pair("first"), out.corner = pair("corner");
+    const std::string_view bytes = view(v.at("bufferView"));
+    if (bytes.size() != out.terms() * out.pixels() * sizeof(float))
+      v.at("bufferView").fail("does not hold as many values as the light field has");
+    out.irradiance.resize(out.terms() * out.pixels());
+    std::memcpy(out.irradiance.data(), bytes.data(), bytes.size());
+    return out;
   }
 
   static Light punctual(const JsonValue& v) {

@@ -8,6 +8,7 @@
 #include "image/io.h"
 #include "package/glb.h"
 #include "photometry/formats.h"
+#include "photometry/light_field.h"
 
 namespace sconce {
 
@@ -212,6 +213,22 @@ class Writer {
     root_["extensions"][kIes]["lights"].push_back({{"name", luminaire.name},
                                                    {"bufferView", add_view(text.data(), text.size(), 0)},
                                                    {"mimeType", "application/x-ies-lm-63"}});
+    if (luminaire.field)
+      root_["extensions"][kIes]["lights"].back()["extras"]["light_field"] = field(*luminaire.field);
+  }
+
+  Json field(const LightField& f) {
+    return {{"basis", name_of(f.basis)},
+            {"columns", f.columns},
+            {"rows", f.rows},
+            {"spacing", f.spacing},
+            {"first", {f.first.x, f.first.y}},
+            {"distance", f.distance},
+            {"width", f.width},
+            {"height", f.height},
+            {"corner", {f.corner.x, f.corner.y}},
+            {"pixel", f.pixel},
+            {"bufferView", add_view(f.irradiance.data(), f.irradiance.size() * sizeof(float), 0)}};
   }
 
   void add(const Light& light) {
@@ -228,6 +245,7 @@ class Writer {
                                     {"multiplier", intensity.strength},
                                     {"color", array(intensity.color)}};
       if (!group.empty()) placed["extras"]["light_group"] = group;
+      if (scene_[measured->luminaire].field) placed["extras"]["exact_below"] = measured->exact_below;
       root_["nodes"].push_back(std::move(placed));
       return;
     }

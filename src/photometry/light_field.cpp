@@ -46,7 +46,7 @@ LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, 
   const glm::dvec2 size = glm::dvec2(high) - glm::dvec2(low),
                    center = 0.5 * (glm::dvec2(high) + glm::dvec2(low));
   const auto filters = [&](double length) {
-    return static_cast<int>(std::ceil(length / spacing - 1e-9)) + 1 + 2 * margin_of(basis);
+    return std::max(0, static_cast<int>(std::ceil(length / spacing - 1e-6))) + 2 * margin_of(basis) - 1;
   };
   out.columns = filters(size.x);
   out.rows = filters(size.y);
@@ -76,8 +76,10 @@ void LightFieldBuilder::add(std::span<const SourceRay> rays) {
     const glm::dvec2 at = (uv - field_.first) / field_.spacing, where = (st - field_.corner) / field_.pixel;
     const auto s = static_cast<int>(std::floor(where.x)), t = static_cast<int>(std::floor(where.y));
     // Only where all its filters are there does a ray keep its flux.
-    const bool inside = at.x >= margin - 1 && at.y >= margin - 1 && at.x <= field_.columns - margin &&
-                        at.y <= field_.rows - margin;
+    constexpr double kRounding = 1e-4;  // of rays' floats, spacings
+    const bool inside = at.x >= margin - 1 - kRounding && at.y >= margin - 1 - kRounding &&
+                        at.x <= field_.columns - margin + kRounding &&
+                        at.y <= field_.rows - margin + kRounding;
     if (!inside || s < 0 || t < 0 || s >= field_.width || t >= field_.height) {
       lost_ += flux;
       continue;

@@ -69,18 +69,26 @@ double flux(const LightField& field);
 /// The lamp as lit from: box means of the images in constant time.
 class NearLamp {
  public:
-  explicit NearLamp(LightField field);
+  /// @param filter  what a filter covers of M seen from far away, m; 0 = the spacing. Terms that coarser()
+  /// joined by direction still cover no more than the finest.
+  explicit NearLamp(LightField field, double filter = 0);
   const LightField& field() const { return field_; }
 
   /// L(u, v -> s, t) of eq. 5, cd/m2: exact where the lamp lies in the span of the basis.
   double radiance(const glm::dvec2& uv, const glm::dvec2& st) const;
+
+  /// Integrand of eq. 12: what the point uv of S sends to a surface at x that faces it, lux per m2 of S.
+  double from(const glm::dvec2& uv, const Vec3& x) const;
 
   /// Illuminance of a surface at x with normal n (luminaire's frame), lux, by eq. 5 integrated over S.
   /// @param points  of the quadrature, per spacing and axis
   double exact(const Vec3& x, const Vec3& n, int points = 8) const;
   /// The same by eq. 14: every term a textured spot at its filter's centre.
   double approximate(const Vec3& x, const Vec3& n) const;
-  /// One term of eq. 14, lux; may be negative.
+  /// All terms of eq. 14 as a surface at x gets them that faces each filter's centre, [n][m], lux; some may
+  /// be negative.
+  void terms(const Vec3& x, std::span<double> out) const;
+  /// One of them on a surface of normal n.
   double term(int m, int n, const Vec3& x, const Vec3& normal) const;
   /// E' of one term at an offset on M from below its filter's centre, m: the term by direction.
   double towards(int m, int n, const glm::dvec2& offset) const {
@@ -91,21 +99,28 @@ class NearLamp {
   /// Relative error of approximate() by freezing cos4/d2 over a filter's dual (towards M) and over its bell
   /// (towards x): the terms' spreads, weighted by their size.
   double bound(const Vec3& x, const Vec3& n) const;
+  /// The same by terms() that are at hand. @param spacing  of the light field that is approximated, where
+  /// this is a coarser one of it
+  double bound(const Vec3& x, std::span<const double> terms, double spacing) const;
   /// approximate(), or exact() where the bound is above the tolerance.
   double illuminance(const Vec3& x, const Vec3& n, double tolerance) const;
 
  private:
   /// Mean of E' = E / g_mn over a square of M, lux m2 (that is, cd/m2 x m2).
   double mean(std::size_t term, const glm::dvec2& st, double width) const;
+  /// terms() of one filter.
+  double facing(int m, int n, const glm::dvec3& x) const;
 
   LightField field_;
+  double filter_;
   std::vector<double> areas_;  ///< summed-area tables of E', one per term
 };
 
 /// The far field of a light field, and with it where the field is no longer needed. Type C, `step` degrees.
 Photometry far_field(const NearLamp& lamp, double step);
 
-/// Four neighbouring terms in one, moved to their middle: what is left to see of them from far away.
-LightField coarser(const LightField& field);
+/// Four neighbouring terms in one by direction, moved to their middle: what is left to see of them from far
+/// away.
+LightField coarser(const NearLamp& lamp);
 
 }  // namespace sconce

@@ -34,9 +34,7 @@ void write_light_field(const std::filesystem::path& path, const LightField& fiel
         image.at(s, field.height - 1 - t)[term] =
             field.image(term)[static_cast<std::size_t>(t) * static_cast<std::size_t>(field.width) +
                               static_cast<std::size_t>(s)];
-  image.text = {{kKind, "light-field"},
-                {kBasis, field.basis == NearBasis::bell ? "bell" : "spline"},
-                {"sconce:unit", "lux"}};
+  image.text = {{kKind, "light-field"}, {kBasis, name_of(field.basis)}, {"sconce:unit", "lux"}};
   const auto number = [&](const char* name, double v) {
     image.number[std::string("sconce:") + name] = static_cast<float>(v);
   };
@@ -63,9 +61,9 @@ LightField read_light_field(const std::filesystem::path& path) {
     return static_cast<double>(found->second);
   };
   LightField out;
-  if (text(kBasis) != "bell" && text(kBasis) != "spline")
-    throw Error(where, "has the basis '" + text(kBasis) + "'", "bell, spline");
-  out.basis = text(kBasis) == "bell" ? NearBasis::bell : NearBasis::spline;
+  const std::optional<NearBasis> basis = basis_named(text(kBasis));
+  if (!basis) throw Error(where, "has the basis '" + text(kBasis) + "'", "bell, spline");
+  out.basis = *basis;
   for (const char* name : {"columns", "rows"})
     if (!(number(name) >= 1 && number(name) <= kMostFilters && number(name) == std::floor(number(name))))
       throw Error(where, fmt::format("has {} {}", number(name), name), "a whole number from 1 to 1000");

@@ -175,7 +175,7 @@ TEST(LightField, FarAwayItIsAFarField) {
     for (const double c : {0.0, 90.0, 130.0})
       EXPECT_NEAR(intensity_at(far, c, gamma), candela * std::cos(gamma * kPiD / 180), 0.01 * candela)
           << c << " " << gamma;
-  const NearLamp half(coarser(lamp.field()));
+  const NearLamp half(coarser(lamp), lamp.field().spacing);
   EXPECT_EQ(half.field().columns, (lamp.field().columns + 1) / 2);
   for (const double z : {50.0, 500.0}) {
     const Vec3 x(static_cast<float>(0.2 * z), 0, static_cast<float>(-z)), n(0, 0, 1);

@@ -7,6 +7,16 @@
 
 namespace sconce {
 
+const char* name_of(NearBasis basis) {
+  return basis == NearBasis::bell ? "bell" : "spline";
+}
+
+std::optional<NearBasis> basis_named(std::string_view name) {
+  for (const NearBasis basis : {NearBasis::bell, NearBasis::spline})
+    if (name == name_of(basis)) return basis;
+  return std::nullopt;
+}
+
 double bell(double x) {
   x = std::abs(x);
   return x <= 0.5 ? 1 - 2 * x * x : x < 1 ? 2 * (x - 1) * (x - 1) : 0;
@@ -39,6 +49,22 @@ double basis_at(NearBasis basis, double x) {
 
 double basis_reach(NearBasis basis) {
   return basis == NearBasis::bell ? 1 : 1.5;
+}
+
+double basis_quantile(NearBasis basis, double u) {
+  // Both are even with integral 1: the part above x >= 0 is a polynomial, found by halving.
+  const double above = std::min(u, 1 - u);
+  const auto rest = [&](double x) {
+    const double out = basis_reach(basis) - x;
+    if (x > 0.5) return (basis == NearBasis::bell ? 2.0 / 3 : 1.0 / 6) * out * out * out;
+    return basis == NearBasis::bell ? 0.5 - x + 2.0 / 3 * x * x * x : 0.5 - 0.75 * x + x * x * x / 3;
+  };
+  double low = 0, high = basis_reach(basis);
+  for (int i = 0; i < 30; ++i) {
+    const double mid = 0.5 * (low + high);
+    (rest(mid) > above ? low : high) = mid;
+  }
+  return std::copysign(0.5 * (low + high), u - 0.5);
 }
 
 void spline_dual(double* values, std::size_t count, std::size_t stride) {

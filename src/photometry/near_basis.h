@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace sconce {
 
@@ -11,6 +13,10 @@ namespace sconce {
 /// optical or numerical filter, its C1 dual. spline: the uniform quadratic B-spline, for simulated lamps: of
 /// order 3 where the bell is of order 1, but its dual has no end.
 enum class NearBasis : uint8_t { bell, spline };
+
+/// "bell", "spline": as files and options name them.
+const char* name_of(NearBasis basis);
+std::optional<NearBasis> basis_named(std::string_view name);
 
 /// 1 - 2x2, then 2(|x| - 1)2, zero from |x| = 1 on.
 double bell(double x);
@@ -24,6 +30,8 @@ double spline(double x);
 double basis_at(NearBasis basis, double x);
 /// Where the basis ends, spacings from its centre.
 double basis_reach(NearBasis basis);
+/// Where a share u of the basis lies below: positions in proportion to it from uniform numbers.
+double basis_quantile(NearBasis basis, double u);
 
 /// Turns moments with splines into coefficients of splines, in place: the inverse of the Gram matrix (66, 26,
 /// 1)/120, with the ends joined, so that sums are kept exactly. @param stride  distance between neighbours

@@ -98,5 +98,20 @@ TEST(NearBasis, GeometricSpread) {
       << "on the axis: of second order";
 }
 
+// Below the quantile lies the share: integral by the midpoint rule.
+TEST(NearBasis, QuantilesAreThoseOfTheBasis) {
+  for (const NearBasis basis : {NearBasis::bell, NearBasis::spline}) {
+    const int steps = 40000;
+    for (const double u : {0.001, 0.08, 0.3, 0.5, 0.77, 0.99}) {
+      const double low = -basis_reach(basis), width = (basis_quantile(basis, u) - low) / steps;
+      double share = 0;
+      for (int i = 0; i < steps; ++i) share += basis_at(basis, low + (i + 0.5) * width) * width;
+      EXPECT_NEAR(share, u, 1e-7) << u;
+    }
+    EXPECT_EQ(basis_named(name_of(basis)), basis);
+  }
+  EXPECT_FALSE(basis_named("box"));
+}
+
 }  // namespace
 }  // namespace sconce

@@ -22,16 +22,16 @@ glm::dvec2 onto_m(const LightField& field, const glm::dvec2& uv, const glm::dvec
   return uv + (glm::dvec2(x) - uv) * (field.distance / -x.z);
 }
 
-/// cos at the lamp x cos at the surface / distance2; 0 behind either.
-double form(const glm::dvec2& uv, const glm::dvec3& x, const glm::dvec3& normal) {
-  const glm::dvec3 to = glm::dvec3(uv, 0) - x;
-  const double d2 = glm::dot(to, to), facing = glm::dot(to, normal);
-  return x.z < 0 && facing > 0 ? -x.z * facing / (d2 * d2) : 0;
+/// Of the light from uv at x.
+double cosine_at(const glm::dvec2& uv, const Vec3& x, const Vec3& normal) {
+  const glm::dvec3 to = glm::dvec3(uv, 0) - glm::dvec3(x);
+  return glm::dot(to, glm::dvec3(normal)) / glm::length(to);
 }
 
 }  // namespace
 
-NearLamp::NearLamp(LightField field) : field_(std::move(field)) {
+NearLamp::NearLamp(LightField field, double filter)
+    : field_(std::move(field)), filter_(filter > 0 ? filter : field_.spacing) {
   const auto width = static_cast<std::size_t>(field_.width), height = static_cast<std::size_t>(field_.height);
   if (field_.irradiance.size() != field_.terms() * field_.pixels())
     throw Error("light field", "has images of another size than it says");
@@ -92,8 +92,13 @@ double NearLamp::radiance(const glm::dvec2& uv, const glm::dvec2& st) const {
   return sum / (geometry(field_, uv, st) * field_.spacing * field_.spacing);
 }
 
-double NearLamp::exact(const Vec3& point, const Vec3& normal, int points) const {
-  const glm::dvec3 x(point), n(normal);
+double NearLamp::from(const glm::dvec2& uv, const Vec3& x) const {
+  const glm::dvec3 to = glm::dvec3(uv, 0) - glm::dvec3(x);
+  const double d2 = glm::dot(to, to);
+  return to.z > 0 ? radiance(uv, onto_m(field_, uv, glm::dvec3(x))) * to.z / (d2 * std::sqrt(d2)) : 0;
+}
+
+double NearLamp::exact(const Vec3& x, const Vec3& normal, int points) const {
   if (!(x.z < 0)) return 0;
   const double reach = basis_reach(field_.basis), step = field_.spacing / points;
   const int columns = static_cast<int>((field_.columns - 1 + 2 * reach) * points),
@@ -103,22 +108,32 @@ double NearLamp::exact(const Vec3& point, const Vec3& normal, int points) const 
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const glm::dvec2 uv = start + step * (glm::dvec2(i, j) + 0.5);
-      const double f = form(uv, x, n);
-      if (f > 0) sum += f * radiance(uv, onto_m(field_, uv, x));
+      const double cosine = cosine_at(uv, x, normal);
+      if (cosine > 0) sum += cosine * from(uv, x);
     }
   return sum * step * step;
 }
 
-double NearLamp::term(int m, int n, const Vec3& point, const Vec3& normal) const {
-  const glm::dvec3 x(point);
-  const glm::dvec2 c = field_.center(m, n);
-  const double f = form(c, x, glm::dvec3(normal));
-  if (f == 0) return 0;
+double NearLamp::facing(int m, int n, const glm::dvec3& x) const {
+  const glm::dvec2 c = field_.center(m, n), across = c - glm::dvec2(x);
+  const double depth = -x.z, d2 = glm::dot(across, across) + depth * depth;
   // The filter seen from x covers this much of M.
-  const double window = field_.spacing * std::abs(1 - field_.distance / -x.z);
-  return f * mean(static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
-                      static_cast<std::size_t>(m),
-                  onto_m(field_, c, x), window);
+  const double window = filter_ * std::abs(1 - field_.distance / depth);
+  return depth / (d2 * std::sqrt(d2)) *
+         mean(static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
+                  static_cast<std::size_t>(m),
+              onto_m(field_, c, x), window);
+}
+
+void NearLamp::terms(const Vec3& x, std::span<double> out) const {
+  std::size_t i = 0;
+  for (int n = 0; n < field_.rows; ++n)
+    for (int m = 0; m < field_.columns; ++m) out[i++] = x.z < 0 ? facing(m, n, glm::dvec3(x)) : 0;
+}
+
+double NearLamp::term(int m, int n, const Vec3& x, const Vec3& normal) const {
+  const double cosine = cosine_at(field_.center(m, n), x, normal);
+  return x.z < 0 && cosine > 0 ? cosine * facing(m, n, glm::dvec3(x)) : 0;
 }
 
 double NearLamp::approximate(const Vec3& x, const Vec3& normal) const {
@@ -129,13 +144,22 @@ double NearLamp::approximate(const Vec3& x, const Vec3& normal) const {
 }
 
 double NearLamp::bound(const Vec3& x, const Vec3& normal) const {
+  std::vector<double> values;
+  for (int n = 0; n < field_.rows; ++n)
+    for (int m = 0; m < field_.columns; ++m) values.push_back(term(m, n, x, normal));
+  return bound(x, values, field_.spacing);
+}
+
+double NearLamp::bound(const Vec3& x, std::span<const double> terms, double spacing) const {
   if (!(x.z < 0)) return 0;
   double error = 0, sum = 0;
-  const double depth = static_cast<double>(-x.z), bell_width = 2 * basis_reach(field_.basis) * field_.spacing,
-               dual_width = 4 * field_.spacing;
+  const double depth = static_cast<double>(-x.z), bell_width = 2 * basis_reach(field_.basis) * spacing,
+               dual_width = 4 * spacing;
+  std::size_t i = 0;
   for (int n = 0; n < field_.rows; ++n)
     for (int m = 0; m < field_.columns; ++m) {
-      const double value = term(m, n, x, normal);
+      const double value = terms[i++];
+      if (value == 0) continue;
       const double tangent = glm::length(glm::dvec2(glm::dvec3(x)) - field_.center(m, n)) / depth;
       sum += value;
       error += std::abs(value) * (geometric_spread(tangent, dual_width / field_.distance) +
@@ -170,14 +194,14 @@ Photometry far_field(const NearLamp& lamp, double step) {
   return out;
 }
 
-LightField coarser(const LightField& field) {
+LightField coarser(const NearLamp& lamp) {
+  const LightField& field = lamp.field();
   LightField out = field;
   out.columns = (field.columns + 1) / 2;
   out.rows = (field.rows + 1) / 2;
   out.spacing = 2 * field.spacing;
   out.first = field.first + 0.5 * field.spacing;
   out.irradiance.assign(out.terms() * out.pixels(), 0.0f);
-  const NearLamp lamp(field);
   for (int n = 0; n < out.rows; ++n)
     for (int m = 0; m < out.columns; ++m) {
       const glm::dvec2 c = out.center(m, n);

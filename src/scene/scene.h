@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,8 @@
 #include "photometry/photometry.h"
 
 namespace sconce {
+
+struct LightField;
 
 struct Texture {
   std::string name;
@@ -104,11 +107,16 @@ struct SkyLight {
 struct Luminaire {
   std::string name;  ///< file name
   Photometry photometry;
+  /// What lights in place of the table where the lamp was measured from near; of the same flux. Null: from
+  /// far only.
+  std::shared_ptr<const LightField> field;
 };
 /// A measured lamp in its place: nadir along -z of the frame, C0 along +x. Its intensity is the table's times
-/// Light::intensity; its opening spreads it over an area.
+/// Light::intensity; its opening spreads it over an area. A light field's sampling plane is the frame's z =
+/// 0.
 struct LuminaireLight {
   Id<Luminaire> luminaire;
+  float exact_below = 0.1f;  ///< light fields: error that their approximation may have by its bound
 };
 
 /// A light that is no mesh. Points along -z of its frame. Emissive meshes are area lights by their material.

@@ -2,6 +2,7 @@
 #include "solve/inputs.h"
 
 #include "core/hash.h"
+#include "photometry/light_field.h"
 
 namespace sconce {
 
@@ -59,6 +60,12 @@ void add(ContentHash& hash, const Photometry& p) {
   add(hash, p.candela);
 }
 
+void add(ContentHash& hash, const LightField& f) {
+  hash.value(f.basis).value(f.columns).value(f.rows).value(f.spacing).value(f.first).value(f.distance);
+  hash.value(f.width).value(f.height).value(f.corner).value(f.pixel);
+  add(hash, f.irradiance);
+}
+
 void add_lamp(ContentHash& hash, const Scene& scene, const Light& light) {
   hash.value(light.shape.index()).value(light.frame).value(light.intensity);
   if (const auto* point = std::get_if<PointLight>(&light.shape)) hash.value(point->range);
@@ -68,8 +75,11 @@ void add_lamp(ContentHash& hash, const Scene& scene, const Light& light) {
     hash.value(sky->image.width).value(sky->image.height);
     add(hash, sky->image.data);
   }
-  if (const auto* measured = std::get_if<LuminaireLight>(&light.shape))
-    add(hash, scene[measured->luminaire].photometry);
+  if (const auto* measured = std::get_if<LuminaireLight>(&light.shape)) {
+    const Luminaire& luminaire = scene[measured->luminaire];
+    add(hash, luminaire.photometry);
+    if (luminaire.field) add(hash.value(measured->exact_below), *luminaire.field);
+  }
 }
 
 }  // namespace

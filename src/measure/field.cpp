@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/field.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace sconce {
+
+namespace {
+
+constexpr double kMostGigabytes = 2;
+constexpr double kSpacings = 25;  // between the planes where nothing else is asked for
+
+/// Where rays leave, as far as they go within an angle from nadir.
+struct Extent {
+  Vec2 low{1e30f}, high{-1e30f};  ///< on the sampling plane, m
+  float bottom = 1e30f;           ///< z of the sampling plane
+};
+
+class FieldRays {
+ public:
+  FieldRays(const RaySource& rays, double tangent) : rays_(rays), tangent_(static_cast<float>(tangent)) {}
+
+  Extent extent() const {
+    Extent out;
+    each([&](const SourceRay& ray) { out.bottom = std::min(out.bottom, ray.position.z); });
+    each([&](const SourceRay& ray) {
+      const SourceRay r = lowered(ray, out.bottom);
+      if (!within(r)) return;
+      const Vec2 uv = Vec2(r.position) - Vec2(r.direction) * (r.position.z / r.direction.z);
+      out.low = glm::min(out.low, uv), out.high = glm::max(out.high, uv);
+    });
+    return out;
+  }
+
+  void project(LightFieldBuilder& builder, float bottom, float scale) const {
+    std::vector<SourceRay> block;
+    rays_([&](std::span<const SourceRay> rays) {
+      block.clear();
+      for (const SourceRay& ray : rays) {
+        SourceRay r = lowered(ray, bottom);
+        r.flux *= scale;
+        if (!within(r)) r.direction = Vec3(0, 0, 1);  // counts as lost
+        block.push_back(r);
+      }
+      builder.add(block);
+    });
+  }
+
+  double flux() const {
+    double sum = 0;
+    each([&](const SourceRay& ray) { sum += static_cast<double>(ray.flux); });
+    return sum;
+  }
+
+ private:
+  template <class F>
+  void each(const F& f) const {
+    rays_([&](std::span<const SourceRay> rays) {
+      for (const SourceRay& ray : rays) f(ray);
+    });
+  }
+  static SourceRay lowered(SourceRay ray, float bottom) {
+    ray.position.z -= bottom;
+    return ray;
+  }
+  bool within(const SourceRay& ray) const {
+    return ray.direction.z < 0 && glm::length(Vec2(ray.direction)) <= tangent_ * -ray.direction.z;
+  }
+
+  const RaySource& rays_;
+  float tangent_;
+};
+
+}  // namespace
+
+MeasuredField measure_field(const RaySource& source, const FieldParams& params, const std::string& where) {
+  const double distance = params.distance > 0 ? params.distance : kSpacings * params.spacing;
+  const double tangent = std::tan(params.angle * std::numbers::pi / 180);
+  const FieldRays rays(source, tangent);
+  const Extent extent = rays.extent();
+  if (extent.low.x > extent.high.x) throw Error(where, "sends no ray within the angle from nadir");
+  const Vec2 size = extent.high - extent.low;
+  LightField empty = make_light_field(
+      params.basis, extent.low, extent.high, params.spacing, distance,
+      0.5 * static_cast<double>(std::max(size.x, size.y)) + distance * tangent, params.pixels);
+  if (const double bytes = 12.0 * static_cast<double>(empty.terms() * empty.pixels());
+      bytes > kMostGigabytes * 1e9)
+    throw UsageError("--spacing",
+                     fmt::format("makes {} x {} filters of {} x {} pixels, {:.1f} GB", empty.columns,
+                                 empty.rows, params.pixels, params.pixels, bytes / 1e9),
+                     "at most 2 GB; a wider spacing, a smaller --angle or fewer --pixels");
+  MeasuredField out;
+  out.plane = static_cast<double>(extent.bottom);
+  if (params.lumens > 0) out.scale = params.lumens / rays.flux();
+  LightFieldBuilder builder(std::move(empty));
+  rays.project(builder, extent.bottom, static_cast<float>(out.scale));
+  out.kept = builder.kept(), out.lost = builder.lost();
+  out.field = std::move(builder).finish();
+  return out;
+}
+
+}  // namespace sconce
