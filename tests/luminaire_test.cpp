@@ -7,11 +7,14 @@
 #include <thread>
 
 #include "bake_job.h"
+#include "core/parallel.h"
 #include "core/test_data.h"
 #include "image/io.h"
 #include "photometry/formats.h"
+#include "photometry/light_field_file.h"
 #include "picture/render.h"
 #include "process.h"
+#include "relight/moved_lamps.h"
 #include "small_scenes.h"
 
 namespace sconce {
@@ -23,9 +26,10 @@ constexpr double kPiD = 3.14159265358979323846;
 
 /// Bakes a scene file with its side file, direct light only unless said otherwise.
 Package baked(const std::filesystem::path& scene, const std::filesystem::path& package, float density,
-              int samples, int bounces) {
+              int samples, int bounces, const char* solver = "radiosity") {
   app::BakeJob job;
   job.scene = scene;
+  job.solver = solver;
   job.atlas.density = density;
   job.params.samples = samples;
   job.params.bounces = bounces;
@@ -36,6 +40,31 @@ Package baked(const std::filesystem::path& scene, const std::filesystem::path& p
   app::write_result(bake, std::span(&state, 1), package, {}, {});
   return Package::open(package);
 }
+
+/// What the floor shows of a package with a camera just above it: lux, green.
+class Floor {
+ public:
+  Floor(const Package& package, float albedo)
+      : view_(package),
+        mix_(make_mix(package.manifest().groups, {}, "", {})),
+        pages_(mix_pages(package, mix_)),
+        albedo_(static_cast<double>(albedo)) {}
+
+  double lux(float x, float z) const {
+    Camera camera = look_at(Vec3(x, 1, z), Vec3(x + 0.001f, 0, z));
+    camera.yfov = 0.002f;
+    camera.aspect = 1;
+    return static_cast<double>(view_.render(camera, mix_, pages_, {1, 1, 16, 0}).rgb_at(0, 0).g) * kPiD /
+           albedo_;
+  }
+  const View& view() const { return view_; }
+
+ private:
+  View view_;
+  MixSpec mix_;
+  std::vector<Image> pages_;
+  double albedo_;
+};
 
 /// 800 cd at nadir, 300 at 45 degrees, 0 at the horizon; another half of it at C90.
 const char* kLamp =
@@ -55,23 +84,93 @@ TEST(LuminaireBake, LuxOnTheFloor) {
   const Package package = baked(folder / "floor.glb", folder / "floor.sconce", 60, 16, 0);
   EXPECT_EQ(package.scene().luminaires.size(), 1u) << "the package keeps the lamp";
   const Photometry lamp = parse_ies(kLamp, "lamp.ies");
-  const View view(package);
-  const MixSpec mix = make_mix(package.manifest().groups, {}, "", {});
-  const std::vector<Image> pages = mix_pages(package, mix);
+  const Floor floor(package, albedo);
   for (const auto& [x, z] :
        {std::pair(0.3f, 0.01f), std::pair(1.2f, 0.5f), std::pair(-1.0f, -0.7f), std::pair(0.0f, 1.5f)}) {
-    Camera camera = look_at(Vec3(x, 1, z), Vec3(x + 0.001f, 0, z));
-    camera.yfov = 0.002f;
-    camera.aspect = 1;
-    const double seen = static_cast<double>(view.render(camera, mix, pages, {1, 1, 16, 0}).rgb_at(0, 0).g);
     const glm::dvec3 to(x - 0.3, -2, z);
     const double d2 = glm::dot(to, to), cosine = 2 / std::sqrt(d2);
     // Roll turns C0 from +x towards -z.
     const double c = std::atan2(-to.z, to.x) * 180 / kPiD - 20;
     const double candela = 0.5 * intensity_at(lamp, std::fmod(c + 720, 360), std::acos(cosine) * 180 / kPiD);
-    const double lux = seen * kPiD / static_cast<double>(albedo);
-    EXPECT_NEAR(lux / (candela * cosine / d2), 1, 2e-3) << x << " " << z;
+    EXPECT_NEAR(floor.lux(x, z) / (candela * cosine / d2), 1, 2e-3) << x << " " << z;
   }
+}
+
+/// Filters of 10 mm, each a soft spot; those to the right shine further to the right, so that the pattern
+/// changes with distance.
+LightField spots() {
+  LightField field = make_light_field(NearBasis::bell, Vec2(-0.01f), Vec2(0.01f), 0.01, 0.25, 0.25, 48);
+  for (int n = 0; n < field.rows; ++n)
+    for (int m = 0; m < field.columns; ++m)
+      for (int t = 0; t < 48; ++t)
+        for (int s = 0; s < 48; ++s) {
+          const glm::dvec2 st = field.corner + field.pixel * (glm::dvec2(s, t) + 0.5),
+                           middle = 4.0 * field.center(m, n);
+          const double d2 = glm::dot(st - middle, st - middle);
+          const std::size_t term = static_cast<std::size_t>(n * field.columns + m);
+          field.irradiance[term * field.pixels() + static_cast<std::size_t>(48 * t + s)] =
+              static_cast<float>((m == 4 ? -100 : 1000) * std::exp(-d2 / (0.2 * 0.2)));
+        }
+  return field;
+}
+
+// A light field baked into a group is on the floor what `luminaire render` throws onto a wall, whoever
+// solves; and what relighting has for its direct light.
+TEST(LuminaireBake, LightFieldIsWhatRenderShows) {
+  const TemporaryFolder folder;
+  Scene scene;
+  const float albedo = 0.5f;
+  add_quad(scene, "floor", add_material(scene, "grey", Rgb(albedo)), Vec3(-0.5f, 0, -0.5f), Vec3(0, 0, 1),
+           Vec3(1, 0, 0));
+  folder.write("floor.glb", write_glb(scene, "test"));
+  write_light_field(folder / "lamp.exr", spots());
+  folder.write("floor.toml", "[[luminaire]]\nfile = \"lamp.exr\"\nat = [0, 0.3, 0]\n");
+  const auto run =
+      run_sconce({"luminaire", "render", (folder / "lamp.exr").string(), "-o", (folder / "wall.exr").string(),
+                  "--distance", "0.3", "--width", "0.6", "--size", "20", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Image wall = read_exr(folder / "wall.exr");
+  for (const char* solver : {"path", "radiosity", "photon"}) {
+    const Package package = baked(folder / "floor.glb", folder / "floor.sconce", 40, 512, 0, solver);
+    ASSERT_TRUE(package.scene().luminaires.at(0).field) << "the package keeps the light field";
+    const Floor floor(package, albedo);
+    const MovedGroup group{Id<LightGroup>(0), Rgb(1)};
+    const MovedLamps moved(floor.view().scene(), floor.view().world(), floor.view().tracer(), {},
+                           {&group, 1});
+    for (int j = 2; j < 20; j += 5)
+      for (int i = 2; i < 20; i += 5) {
+        const float x = (static_cast<float>(i) + 0.5f) * 0.03f - 0.3f,
+                    z = (static_cast<float>(j) + 0.5f) * 0.03f - 0.3f;
+        const auto expected = static_cast<double>(wall.at(i, j)[0]);
+        EXPECT_NEAR(floor.lux(x, z), expected, 0.02 * expected) << solver << " " << x << " " << z;
+        double relit = 0;
+        for (uint32_t k = 0; k < 1024; ++k)
+          relit +=
+              static_cast<double>(moved.illuminance({Vec3(x, 0, z), Vec3(0, 1, 0), Vec3(0, 1, 0)}, 1, k).g) /
+              1024;
+        EXPECT_NEAR(relit, expected, 0.02 * expected) << x << " " << z;
+      }
+  }
+}
+
+// Twice the light twice the lux, to the bit; and the same bits at any number of threads.
+TEST(LuminaireBake, LightFieldsAreLinear) {
+  const TemporaryFolder folder;
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "grey", Rgb(0.5f)), Vec3(-0.5f, 0, -0.5f),
+          Vec3(0.5f, 0.5f, 0.5f), true);
+  folder.write("room.glb", write_glb(scene, "test"));
+  write_light_field(folder / "lamp.exr", spots());
+  const auto layer = [&](const char* dim, int threads) {
+    folder.write("room.toml",
+                 std::string("[[luminaire]]\nfile = \"lamp.exr\"\nat = [0, 0.4, 0]\ndim = ") + dim + "\n");
+    const ThreadLimit limit(threads);
+    const Package package = baked(folder / "room.glb", folder / "room.sconce", 8, 8, -1);
+    return package.layer(0, 0).data;
+  };
+  const auto one = layer("1", 1), two = layer("2", 2);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_EQ(2 * one[i], two[i]);
 }
 
 // Within a sphere every surface gets the same share of all light: E = flux / (4 pi R2 (1 - albedo)). So what
@@ -191,6 +290,29 @@ TEST(LuminaireVerb, Acquire) {
                 {"luminaire", "render", lamp, "-o", (folder / "wall.exr").string(), "--size", "4", "--quiet"})
                 .code,
             0);
+}
+
+// A modelled luminaire to a light field and its far field: an emitter of 10 x 20 mm, 3 lm.
+TEST(LuminaireVerb, FieldOfAScene) {
+  const TemporaryFolder folder;
+  Scene scene;
+  const float lumens = 3, area = 0.01f * 0.02f;
+  add_quad(scene, "led", add_material(scene, "led", Rgb(0), Rgb(lumens / (kPi * area))),
+           Vec3(-0.005f, 0, -0.01f), Vec3(0.01f, 0, 0), Vec3(0, 0, 0.02f));
+  folder.write("led.glb", write_glb(scene, "test"));
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const auto run =
+      run_sconce({"luminaire", "field", path("led.glb"), "-o", path("led.exr"), "--far", path("led.ies"),
+                  "--basis", "bell", "--angle", "60", "--pixels", "16", "--rays", "100000", "--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("columns"), 5) << "2 spacings and what duals reach beyond";
+  EXPECT_EQ(json.at("rows"), 7);
+  EXPECT_NEAR(json.at("lumens").get<double>(), 3 * 0.75, 0.01) << "within 60 degrees are three quarters";
+  const Photometry far = read_photometry(path("led.ies"));
+  EXPECT_NEAR(flux(far), 3, 1e-4);
+  EXPECT_NEAR(intensity_at(far, 0, 30), 3 / kPiD * std::cos(kPiD / 6), 0.05);
+  EXPECT_EQ(run_sconce({"luminaire", "field", path("led.glb"), "-o", path("x.exr"), "--rays", "0"}).code, 2);
 }
 
 TEST(LuminaireVerb, BadInput) {

@@ -44,7 +44,7 @@ Id<Luminaire> LuminaireFiles::load(const fs::path& file) {
 }
 
 Id<Luminaire> LuminaireFiles::add(const std::string& name, Photometry photometry) {
-  scene_.luminaires.push_back({name, std::move(photometry), nullptr});
+  scene_.luminaires.push_back({name, std::move(photometry)});
   return Id<Luminaire>(scene_.luminaires.size() - 1);
 }
 

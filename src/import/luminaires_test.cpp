@@ -3,6 +3,7 @@
 #include "core/kelvin.h"
 #include "import/test_files.h"
 #include "import/uri.h"
+#include "photometry/light_field_file.h"
 
 namespace sconce {
 namespace {
@@ -144,6 +145,44 @@ TEST(Luminaires, OfGltfNodes) {
   const auto files = scene_files(room.folder.path() / "room.gltf");
   EXPECT_TRUE(
       std::any_of(files.begin(), files.end(), [](const auto& f) { return f.filename() == "lamp.ies"; }));
+}
+
+/// 2 lm straight down through one pixel of M.
+LightField beam() {
+  LightField field = make_light_field(NearBasis::bell, Vec2(0), Vec2(0), 0.01, 0.2, 0.1, 5);
+  field.irradiance[4 * field.pixels() + 12] = static_cast<float>(2 / (field.pixel * field.pixel));
+  return field;
+}
+
+TEST(Luminaires, LightFieldsAreLampsToo) {
+  Room room;
+  write_light_field(room.folder / "lamp.exr", beam());
+  const Scene scene = room.with(R"(,{"name":"ies:lamp.exr","translation":[0,2,0]},
+      {"extras":{"luminaire":{"file":"lamp.exr","exact_below":0.25}}})",
+                                R"(
+[[luminaire]]
+file = "lamp.exr"
+at = [0, 2, 0]
+flux = 50
+exact_below = 0.02
+)");
+  ASSERT_EQ(scene.lights.size(), 3u);
+  for (const Light& light : scene.lights) {
+    const Luminaire& luminaire = scene[std::get<LuminaireLight>(light.shape).luminaire];
+    ASSERT_TRUE(luminaire.field);
+    EXPECT_EQ(luminaire.field->irradiance, beam().irradiance);
+    EXPECT_NEAR(flux(luminaire.photometry), 2, 1e-6) << "the table has the images' flux";
+  }
+  EXPECT_FLOAT_EQ(std::get<LuminaireLight>(scene.lights[0].shape).exact_below, 0.1f);
+  EXPECT_FLOAT_EQ(std::get<LuminaireLight>(scene.lights[1].shape).exact_below, 0.25f);
+  EXPECT_FLOAT_EQ(std::get<LuminaireLight>(scene.lights[2].shape).exact_below, 0.02f);
+  EXPECT_NEAR(scene.lights[2].intensity.g, 25, 1e-4);
+  EXPECT_NE(room.error("", "[[luminaire]]\nfile = \"lamp.ies\"\nat = [0,0,0]\nexact_below = 0.1\n")
+                .find("lamp.ies is no light field"),
+            std::string::npos);
+  room.folder.write("lamp.exr", "no picture");
+  EXPECT_NE(room.error("", "[[luminaire]]\nfile = \"lamp.exr\"\nat = [0,0,0]\n").find("room.toml:2"),
+            std::string::npos);
 }
 
 TEST(Luminaires, BadInput) {

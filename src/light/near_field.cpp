@@ -37,20 +37,22 @@ glm::dvec2 in_filter(const LightField& field, std::size_t term, double u, double
          field.spacing * glm::dvec2(basis_quantile(field.basis, u), basis_quantile(field.basis, v));
 }
 
-/// Picks one of `weights` (their absolute values) and makes u uniform again.
+/// Picks one of `weights` by their absolute values and makes u uniform again. Positive ones come first: with
+/// one step from sum to sum, low-discrepancy numbers meet both signs in their right shares.
 std::size_t pick(std::span<const double> weights, double total, double& u) {
   double left = u * total;
   std::size_t last = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double w = std::abs(weights[i]);
-    if (w == 0) continue;
-    last = i;
-    if (left < w) {
-      u = left / w;
-      return i;
+  for (const double sign : {1.0, -1.0})
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double w = sign * weights[i];
+      if (!(w > 0)) continue;
+      last = i;
+      if (left < w) {
+        u = left / w;
+        return i;
+      }
+      left -= w;
     }
-    left -= w;
-  }
   u = 0.5;  // rounding: beyond the last
   return last;
 }

@@ -13,6 +13,7 @@ namespace sconce {
 namespace {
 
 constexpr double kMostGigabytes = 2;
+constexpr double kMargin = 12;    // filters beside the opening, at most
 constexpr double kSpacings = 25;  // between the planes where nothing else is asked for
 
 /// Where rays leave, as far as they go within an angle from nadir.
@@ -85,15 +86,17 @@ MeasuredField measure_field(const RaySource& source, const FieldParams& params, 
   const Extent extent = rays.extent();
   if (extent.low.x > extent.high.x) throw Error(where, "sends no ray within the angle from nadir");
   const Vec2 size = extent.high - extent.low;
+  const glm::dvec2 filters = glm::dvec2(size) / params.spacing + kMargin;
+  const double count = filters.x * filters.y, pixels = static_cast<double>(params.pixels) * params.pixels,
+               gigabytes = 12e-9 * count * pixels;
+  if (gigabytes > kMostGigabytes)
+    throw UsageError("--spacing",
+                     fmt::format("makes some {:.0f} filters of {} x {} pixels, {:.1f} GB", count,
+                                 params.pixels, params.pixels, gigabytes),
+                     "at most 2 GB; a wider spacing, a smaller --angle or fewer --pixels");
   LightField empty = make_light_field(
       params.basis, extent.low, extent.high, params.spacing, distance,
       0.5 * static_cast<double>(std::max(size.x, size.y)) + distance * tangent, params.pixels);
-  if (const double bytes = 12.0 * static_cast<double>(empty.terms() * empty.pixels());
-      bytes > kMostGigabytes * 1e9)
-    throw UsageError("--spacing",
-                     fmt::format("makes {} x {} filters of {} x {} pixels, {:.1f} GB", empty.columns,
-                                 empty.rows, params.pixels, params.pixels, bytes / 1e9),
-                     "at most 2 GB; a wider spacing, a smaller --angle or fewer --pixels");
   MeasuredField out;
   out.plane = static_cast<double>(extent.bottom);
   if (params.lumens > 0) out.scale = params.lumens / rays.flux();

@@ -236,7 +236,7 @@ class Reader {
   void luminaire(const JsonValue& v) {
     const std::string name = v.at("name").text();
     scene_.luminaires.push_back(
-        {name, parse_ies(view(v.at("bufferView")), where_ + ", luminaire '" + name + "'"), nullptr});
+        {name, parse_ies(view(v.at("bufferView")), where_ + ", luminaire '" + name + "'")});
     if (v.has("extras") && v.at("extras").has("light_field"))
       scene_.luminaires.back().field = std::make_shared<LightField>(field(v.at("extras").at("light_field")));
   }

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "image/io.h"
 #include "package/test_package.h"
+#include "photometry/light_field.h"
 
 namespace sconce {
 namespace {
@@ -95,6 +96,13 @@ Scene sample() {
   light.name = "measured";
   light.shape = LuminaireLight{Id<Luminaire>(0)};
   scene.lights.push_back(light);
+  LightField field = make_light_field(NearBasis::spline, Vec2(-0.1f), Vec2(0.1f, 0.05f), 0.03, 0.5, 0.4, 3);
+  for (std::size_t i = 0; i < field.irradiance.size(); ++i)
+    field.irradiance[i] = 0.1f * static_cast<float>(i) - 3;
+  scene.luminaires.push_back({"lamp.exr", table, std::make_shared<LightField>(field)});
+  light.name = "near";
+  light.shape = LuminaireLight{Id<Luminaire>(1), 0.03f};
+  scene.lights.push_back(light);
   return scene;
 }
 
@@ -150,7 +158,7 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.instances[1].group_name, "b");
   EXPECT_EQ(b.instances[1].lightmap_scale, 0.5f);
   EXPECT_EQ(b.instances[2].mesh, a.instances[2].mesh);
-  ASSERT_EQ(b.lights.size(), 5u);
+  ASSERT_EQ(b.lights.size(), 6u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(b.lights[i].name, a.lights[i].name);
     EXPECT_EQ(b.lights[i].frame, a.lights[i].frame);
@@ -175,6 +183,23 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.luminaires[0].photometry.candela, a.luminaires[0].photometry.candela);
   EXPECT_EQ(b.luminaires[0].photometry.opening.size, a.luminaires[0].photometry.opening.size);
   EXPECT_EQ(b.luminaires[0].photometry.opening.shape, Opening::Shape::cylinder);
+  const auto near =
+      std::find_if(b.lights.begin(), b.lights.end(), [](const Light& l) { return l.name == "near"; });
+  ASSERT_NE(near, b.lights.end());
+  const auto& placed = std::get<LuminaireLight>(near->shape);
+  EXPECT_EQ(placed.exact_below, 0.03f);
+  EXPECT_FALSE(b.luminaires[0].field);
+  ASSERT_TRUE(b.luminaires.at(placed.luminaire.value).field);
+  const LightField &before = *a.luminaires[1].field, &after = *b.luminaires[1].field;
+  EXPECT_EQ(after.irradiance, before.irradiance);
+  EXPECT_EQ(after.basis, before.basis);
+  EXPECT_EQ(after.first, before.first);
+  EXPECT_EQ(after.corner, before.corner);
+  EXPECT_EQ(after.columns, before.columns);
+  EXPECT_EQ(after.height, before.height);
+  EXPECT_EQ(after.spacing, before.spacing);
+  EXPECT_EQ(after.distance, before.distance);
+  EXPECT_EQ(after.pixel, before.pixel);
   ASSERT_EQ(b.cameras.size(), 1u);
   EXPECT_EQ(b.cameras[0].name, "main");
   EXPECT_EQ(b.cameras[0].frame, a.cameras[0].frame);

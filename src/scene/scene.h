@@ -109,7 +109,7 @@ struct Luminaire {
   Photometry photometry;
   /// What lights in place of the table where the lamp was measured from near; of the same flux. Null: from
   /// far only.
-  std::shared_ptr<const LightField> field;
+  std::shared_ptr<const LightField> field = nullptr;
 };
 /// A measured lamp in its place: nadir along -z of the frame, C0 along +x. Its intensity is the table's times
 /// Light::intensity; its opening spreads it over an area. A light field's sampling plane is the frame's z =
