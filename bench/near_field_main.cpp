@@ -91,7 +91,7 @@ class Wall {
     const auto share = [&](double v) { return 100 * std::sqrt(v / truth2); };
     fmt::print("| {} | {:.2f} | {:.1f} % | {:.1f} % | {:.0f} % | {:.0f} % | {:.1f} % | {:.1f} % of {} |\n",
                times, share(noise2), share(exact2), share(near2), share(far2), 100 * widest / lit,
-               100 * covered / lit, lit);
+               100 * frozen / lit, 100 * covered / lit, lit);
   }
 
  private:
