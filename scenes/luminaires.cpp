@@ -42,14 +42,6 @@ class Bench {
   Stage stage_;
 };
 
-void add_block(MeshBuilder& out, const Vec3& lo, const Vec3& hi) {
-  const Vec3 d = hi - lo, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-  out.part(1);
-  add_rectangle(out, lo, y, x), add_rectangle(out, lo + z, x, y);
-  add_rectangle(out, lo, z, y), add_rectangle(out, lo + x, y, z);
-  add_rectangle(out, lo, x, z), add_rectangle(out, lo + y, z, x);
-}
-
 }  // namespace
 
 Scene make_torch() {
@@ -69,7 +61,7 @@ Scene make_torch() {
   add_rectangle(socket, Vec3(-2, top, -2), Vec3(4, 0, 0), Vec3(0, 0, 4));
   bench.add("socket", "black", socket);
   const float at = kDepth - kFocus - kBefore;
-  add_block(filament, Vec3(-0.9f, at - 0.15f, -0.15f), Vec3(0.9f, at + 0.15f, 0.15f));
+  add_box(filament, Vec3(-0.9f, at - 0.15f, -0.15f), Vec3(0.9f, at + 0.15f, 0.15f), 0);
   bench.add_emitter("filament", filament, 30);
   return bench.finish("torch");
 }
@@ -120,8 +112,8 @@ Scene make_louvre() {
   bench.add("walls", "white", walls);
   for (int i = 1; i < kCells; ++i) {
     const float at = -kHalf + 2 * kHalf * static_cast<float>(i) / kCells, half = 0.5f * kThick;
-    add_block(fins, Vec3(at - half, 0, -kHalf), Vec3(at + half, kFin, kHalf));
-    add_block(fins, Vec3(-kHalf, 0, at - half), Vec3(kHalf, kFin, at + half));
+    add_box(fins, Vec3(at - half, 0, -kHalf), Vec3(at + half, kFin, kHalf), 0);
+    add_box(fins, Vec3(-kHalf, 0, at - half), Vec3(kHalf, kFin, at + half), 0);
   }
   bench.add("louvre", "mirror", fins);
   return bench.finish("louvre");

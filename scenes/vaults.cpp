@@ -9,15 +9,6 @@ namespace sconce::demo {
 
 namespace {
 
-/// Six sides, no chamfers.
-void add_block(MeshBuilder& out, const Vec3& lo, const Vec3& hi) {
-  const Vec3 d = hi - lo, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-  out.part(1);
-  add_rectangle(out, lo, y, x), add_rectangle(out, lo + z, x, y);
-  add_rectangle(out, lo, z, y), add_rectangle(out, lo + x, y, z);
-  add_rectangle(out, lo, x, z), add_rectangle(out, lo + y, z, x);
-}
-
 /// Half an ellipse in the plane z = 0 from (-a, 0) over (0, b), a rectangle of `depth` along z and `thick`
 /// outwards.
 void add_arch(MeshBuilder& out, float a, float b, float thick, float depth, int segments) {
@@ -64,8 +55,8 @@ Scene make_crypt() {
     const float x = i % 2 == 0 ? -1.4f : 1.4f, z = kBay * (0.5f + static_cast<float>(i / 2));
     MeshBuilder column;
     add_lathe(column, {{0.17f, 0.25f}, {0.15f, 2.1f}}, 8, 50);
-    add_block(column, Vec3(-0.25f, 0, -0.25f), Vec3(0.25f, 0.25f, 0.25f));
-    add_block(column, Vec3(-0.25f, 2.1f, -0.25f), Vec3(0.25f, 2.95f, 0.25f));
+    add_box(column, Vec3(-0.25f, 0, -0.25f), Vec3(0.25f, 0.25f, 0.25f), 0);
+    add_box(column, Vec3(-0.25f, 2.1f, -0.25f), Vec3(0.25f, 2.95f, 0.25f), 0);
     columns.append(column, move(Vec3(x, 0, z)));
   }
   stage.add("floor", "flags", floor), stage.add("walls", "stone", walls), stage.add("vault", "stone", vault);
@@ -105,11 +96,11 @@ Scene make_cloister() {
     if (i == 0) continue;
     for (const float z : {-0.12f, 0.12f}) side.append(column, move(Vec3(x - 0.5f * kPitch, 0, kGarth + z)));
   }
-  add_block(side, Vec3(-kGarth - 0.2f, 0, kGarth - 0.2f), Vec3(kGarth - 0.2f, kPlinth, kGarth + 0.2f));
-  add_block(side, Vec3(-kGarth - 0.2f, spring + kArch + 0.1f, kGarth - 0.2f),
-            Vec3(kGarth - 0.2f, top, kGarth + 0.2f));
-  add_block(side, Vec3(-kGarth - 0.2f, kPlinth, kGarth - 0.2f),
-            Vec3(-kGarth + 0.2f, top, kGarth + 0.2f));  // pier
+  add_box(side, Vec3(-kGarth - 0.2f, 0, kGarth - 0.2f), Vec3(kGarth - 0.2f, kPlinth, kGarth + 0.2f), 0);
+  add_box(side, Vec3(-kGarth - 0.2f, spring + kArch + 0.1f, kGarth - 0.2f),
+          Vec3(kGarth - 0.2f, top, kGarth + 0.2f), 0);
+  add_box(side, Vec3(-kGarth - 0.2f, kPlinth, kGarth - 0.2f), Vec3(-kGarth + 0.2f, top, kGarth + 0.2f),
+          0);  // pier
   side.part(1);
   MeshBuilder wall;
   wall.part(1);

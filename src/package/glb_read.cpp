@@ -242,8 +242,9 @@ class Reader {
   }
 
   LightField field(const JsonValue& v) {
-    constexpr int64_t kMost = 1 << 16;
-    const auto count = [&](const char* key) { return static_cast<int>(v.at(key).integer(1, kMost)); };
+    const auto count = [&](const char* key, int64_t most) {
+      return static_cast<int>(v.at(key).integer(1, most));
+    };
     const auto pair = [&](const char* key) {
       return glm::dvec2(v.at(key).at(std::size_t{0}).number(), v.at(key).at(std::size_t{1}).number());
     };
@@ -251,10 +252,12 @@ class Reader {
     const std::optional<NearBasis> basis = basis_named(v.at("basis").text());
     if (!basis) v.at("basis").fail("is '" + v.at("basis").text() + "'", "bell, spline");
     out.basis = *basis;
-    out.columns = count("columns"), out.rows = count("rows");
-    out.width = count("width"), out.height = count("height");
+    out.columns = count("columns", 1000), out.rows = count("rows", 1000);
+    out.width = count("width", 1 << 16), out.height = count("height", 1 << 16);
     out.spacing = v.at("spacing").number(), out.distance = v.at("distance").number();
     out.pixel = v.at("pixel").number();
+    if (!(out.spacing > 0 && out.distance > 0 && out.pixel > 0))
+      v.fail("has a spacing, distance or pixel that is not positive");
     out.first = pair("first"), out.corner = pair("corner");
     const std::string_view bytes = view(v.at("bufferView"));
     if (bytes.size() != out.terms() * out.pixels() * sizeof(float))
