@@ -17,6 +17,7 @@ constexpr uint32_t kCloudStream = 0x636c6f64u, kMetStream = 0x6d6574u, kBuriedSt
 std::optional<Vec3> place_of(const Lamp& lamp) {
   if (const auto* punctual = std::get_if<PunctualLamp>(&lamp.shape)) return punctual->position;
   if (const auto* luminaire = std::get_if<LuminaireLamp>(&lamp.shape)) return luminaire->position;
+  if (const auto* field = std::get_if<NearFieldLamp>(&lamp.shape)) return field->position;
   if (const auto* mesh = std::get_if<MeshLamp>(&lamp.shape)) return mesh->center;
   return std::nullopt;
 }
