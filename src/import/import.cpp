@@ -63,6 +63,7 @@ std::optional<fs::path> side_file_of(const fs::path& scene) {
 Scene import_scene(const fs::path& path, const Progress& progress) {
   Scene scene = read_any(path, progress);
   if (const auto side = side_file_of(path)) apply_side_file(*side, scene, progress);
+  add_default_sky(scene, progress);
   validate(scene, progress);
   return scene;
 }

@@ -29,6 +29,10 @@ Scene import_assimp(const std::filesystem::path& path, const Progress& progress 
 /// are errors with file:line. The [options] table is the command line's business and ignored here.
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress = {});
 
+/// What has no light at all gets an overcast sky of 10,000 lx, and a warning that names the ways to add
+/// lamps.
+void add_default_sky(Scene& scene, const Progress& progress = {});
+
 /// Files besides `path` that the scene was read from (buffers, textures, side file), for content hashes.
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& path);
 

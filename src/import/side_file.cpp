@@ -65,8 +65,9 @@ Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up) {
 
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress) {
   const SideNode root = parse_side_file(path);
-  const SideTable file(path.string(), "the side file", root,
-                       {"scene", "light", "luminaire", "group", "emission", "camera", "sky", "material", "options"});
+  const SideTable file(
+      path.string(), "the side file", root,
+      {"scene", "light", "luminaire", "group", "emission", "camera", "sun", "sky", "material", "options"});
   const SideContext context{path, scene, progress};
   if (const SideNode* whole = root.find("scene")) apply_scene(context, *whole);
   // Groups come last: they also name lamps that this file adds.
@@ -74,7 +75,9 @@ void apply_side_file(const std::filesystem::path& path, Scene& scene, const Prog
   for_each_table(context, root, "emission", apply_emission);
   for_each_table(context, root, "light", apply_light);
   for_each_table(context, root, "luminaire", apply_luminaire);
-  if (const SideNode* sky = root.find("sky")) apply_sky(context, *sky);
+  std::optional<Vec3> sun;
+  if (const SideNode* table = root.find("sun")) sun = apply_sun(context, *table);
+  if (const SideNode* sky = root.find("sky")) apply_sky(context, *sky, sun);
   for_each_table(context, root, "camera", apply_camera);
   if (const SideNode* groups = root.find("group")) {
     const auto* tables = std::get_if<SideNode::Table>(&groups->value);

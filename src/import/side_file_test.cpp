@@ -2,6 +2,7 @@
 #include "core/kelvin.h"
 #include "image/io.h"
 #include "import/test_files.h"
+#include "scene/daylight.h"
 #include "scene/groups.h"
 
 namespace sconce {
@@ -168,6 +169,41 @@ rotate = 90
   const Scene plain = room.with("[sky]\nluminance = 3000\nkelvin = 6504\n");
   EXPECT_NEAR(plain.lights.back().intensity.b, 3000, 1);
   EXPECT_NE(room.error("[sky]\nfile = \"gone.exr\"\n").find("gone.exr"), std::string::npos);
+}
+
+TEST(SideFile, SkiesByFormulaAndTheSun) {
+  Room room;
+  const Scene day = room.with(
+      "[sun]\nlatitude = 48\nlongitude = 11\ntime = \"2026-06-21T13:00+02:00\"\n"
+      "[sky]\nkind = \"cie-clear\"\nilluminance = 12000\n");
+  const Light &sky = day.lights.back(), &sun = day.lights[day.lights.size() - 2];
+  EXPECT_EQ(sun.group_name, "sun");
+  EXPECT_GT(sun.frame[2].y, 0.85);  // high above the south
+  EXPECT_GT(sun.frame[2].z, 0.2);
+  EXPECT_GT(luminance(sun.intensity), 90000);
+  EXPECT_NEAR(horizontal_illuminance(std::get<SkyLight>(sky.shape).image), 12000, 2);
+  EXPECT_FALSE(room.warnings.any("no lights"));
+
+  room.with("[sun]\nelevation = -3\n");
+  EXPECT_TRUE(room.warnings.any("below the horizon"));
+  EXPECT_NE(room.error("[sky]\nkind = \"cie-clear\"\n").find("[sun]"), std::string::npos);
+  EXPECT_NE(room.error("[sky]\nkind = \"grey\"\n").find("cie-overcast, cie-clear, preetham, file"),
+            std::string::npos);
+  EXPECT_NE(room.error("[sky]\nkind = \"cie-overcast\"\nluminance = 3\n").find("stands beside kind"),
+            std::string::npos);
+  EXPECT_NE(room.error("[sky]\nluminance = 3\nturbidity = 3\n").find("by formula"), std::string::npos);
+  EXPECT_NE(room.error("[sun]\nlatitude = 3\n").find("go together"), std::string::npos);
+  EXPECT_NE(room.error("[sun]\nlatitude = 3\nlongitude = 3\ntime = \"noon\"\n").find("'noon' is no time"),
+            std::string::npos);
+}
+
+TEST(SideFile, WhatHasNoLightGetsASky) {
+  const TemporaryFolder folder;
+  Warnings w;
+  const Scene scene = import_scene(folder.write("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), w.progress);
+  EXPECT_TRUE(w.any("overcast sky of 10,000 lx"));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_NEAR(horizontal_illuminance(std::get<SkyLight>(scene.lights[0].shape).image), 10000, 1);
 }
 
 TEST(SideFile, ErrorsNameLineKeyAndChoices) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "core/error.h"
-#include "image/io.h"
 #include "import/side_parts.h"
 
 namespace sconce {
@@ -120,39 +118,6 @@ void apply_light(const SideContext& context, const SideNode& node) {
     if (const auto group = table.text("group")) light->group_name = *group;
   }
   if (fresh) context.scene.lights.push_back(std::move(added));
-}
-
-void apply_sky(const SideContext& context, const SideNode& node) {
-  const SideTable table(context.path.string(), "[sky]", node,
-                        {"file", "luminance", "color", "kelvin", "intensity", "rotate", "group"});
-  Light light;
-  light.name = "sky";
-  SkyLight sky;
-  light.intensity =
-      table.lamp_color().value_or(Rgb(1)) * static_cast<float>(table.not_negative("intensity").value_or(1));
-  if (const auto file = table.text("file")) {
-    if (table.has("luminance"))
-      table.fail("luminance", "stands beside file", "file with intensity, or luminance");
-    const std::filesystem::path path = context.path.parent_path() / *file;
-    try {
-      sky.image = rgb_of(read_image(path));
-    } catch (const Error& e) {
-      table.fail("file", e.what(), "a lat-long .hdr, .exr or 8-bit picture");
-    }
-  } else if (const auto level = table.not_negative("luminance")) {
-    light.intensity *= static_cast<float>(*level);
-  } else {
-    table.fail({}, "has neither a picture nor a strength", "file, or luminance in cd/m2");
-  }
-  const float turn = radians(table.number("rotate").value_or(0));
-  const float c = std::cos(turn), s = std::sin(turn);
-  light.frame[0] = glm::vec4(c, 0, -s, 0);
-  light.frame[2] = glm::vec4(s, 0, c, 0);
-  light.group_name = table.text("group").value_or("sky");
-  light.shape = std::move(sky);
-  std::erase_if(context.scene.lights,
-                [](const Light& l) { return std::holds_alternative<SkyLight>(l.shape); });
-  context.scene.lights.push_back(std::move(light));
 }
 
 }  // namespace sconce

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,10 @@ struct SideContext {
 void apply_scene(const SideContext& context, const SideNode& node);
 void apply_light(const SideContext& context, const SideNode& node);
 void apply_luminaire(const SideContext& context, const SideNode& node);
-void apply_sky(const SideContext& context, const SideNode& node);
+/// @return the direction towards the sun, also where it is below the horizon
+std::optional<Vec3> apply_sun(const SideContext& context, const SideNode& node);
+/// @param sun  towards it, for the kinds of sky that need it
+void apply_sky(const SideContext& context, const SideNode& node, const std::optional<Vec3>& sun);
 void apply_camera(const SideContext& context, const SideNode& node);
 void apply_material(const SideContext& context, const SideNode& node);
 void apply_emission(const SideContext& context, const SideNode& node);

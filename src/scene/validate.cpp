@@ -53,7 +53,7 @@ class Validator {
     std::erase_if(scene_.lights, [&](Light& light) { return !check(light); });
     std::erase_if(scene_.cameras, [&](const Camera& camera) { return !check(camera); });
     check_size();
-    check_lamps();
+    check_albedos();
   }
 
  private:
@@ -222,7 +222,7 @@ class Validator {
       warn("the scene is " + std::to_string(size) + " m across; is its unit the metre?");
   }
 
-  void check_lamps() {
+  void check_albedos() {
     if (!bright_.empty()) {
       std::string names;
       for (std::size_t i = 0; i < std::min<std::size_t>(bright_.size(), 4); ++i)
@@ -230,15 +230,6 @@ class Validator {
       if (bright_.size() > 4) names += " and " + std::to_string(bright_.size() - 4) + " more";
       warn("materials with an albedo above 0.95, which nothing in a house has: " + names);
     }
-    const bool emits = std::any_of(scene_.instances.begin(), scene_.instances.end(), [&](const Instance& i) {
-      return scene_.emits(i) && !scene_[i.mesh].triangles.empty();
-    });
-    if (scene_.lights.empty() && !emits)
-      warn(
-          "the scene has no lights: add emissive materials or KHR_lights_punctual lamps to it, or [[light]], "
-          "[[emission]] "
-          "or [sky] to the side file " +
-          scene_.name + ".toml beside it");
   }
 
   Scene& scene_;
