@@ -79,7 +79,7 @@ TEST(Daylight, ClearSkyIsBrightAroundTheSun) {
   };
   const double quarter = 3.14159265 / 4;
   const double expected = gradation(std::cos(quarter)) * indicatrix(0) / (gradation(1) * indicatrix(quarter));
-  EXPECT_NEAR(luminance(at(sky, 44.9)) / luminance(at(sky, 89.9)), expected, 0.02 * expected);
+  EXPECT_NEAR(luminance(at(sky, 44.9)) / luminance(at(sky, 89.9)), expected, 0.03 * expected);  // pixels of 0.7 degrees
 }
 
 // Preetham et al. 1999: zenith luminance of turbidity 2 with the sun at 30 degrees from the zenith.

@@ -60,11 +60,11 @@ std::optional<double> parse_time(std::string_view text, double longitude) {
   } else if (!rest.empty()) {
     int hours = 0, minutes = 0;
     length = 0;
-    char sign = 0;
-    if (std::sscanf(std::string(rest).c_str(), "%1[+-]%2d:%2d%n", &sign, &hours, &minutes, &length) != 3 ||
+    char sign[2] = {};
+    if (std::sscanf(std::string(rest).c_str(), "%1[+-]%2d:%2d%n", sign, &hours, &minutes, &length) != 3 ||
         static_cast<std::size_t>(length) != rest.size() || hours > 14 || minutes > 59)
       return std::nullopt;
-    zone = (sign == '-' ? -1 : 1) * (hours + minutes / 60.0);
+    zone = (sign[0] == '-' ? -1 : 1) * (hours + minutes / 60.0);
   }
   using namespace std::chrono;
   const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
