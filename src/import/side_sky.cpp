@@ -11,24 +11,6 @@ namespace sconce {
 
 namespace {
 
-/// The RGB channels of a picture, whatever else it holds.
-Image rgb_of(const Image& image) {
-  const auto channel = [&](const char* name, int otherwise) {
-    const int found = image.channel(name);
-    return found >= 0 ? found : std::min(otherwise, static_cast<int>(image.stride()) - 1);
-  };
-  const int grey = image.channel("Y");
-  const int from[3] = {grey >= 0 ? grey : channel("R", 0), grey >= 0 ? grey : channel("G", 1),
-                       grey >= 0 ? grey : channel("B", 2)};
-  Image out = Image::rgb(image.width, image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const float* p = image.at(x, y);
-      out.set_rgb(x, y, {p[from[0]], p[from[1]], p[from[2]]});
-    }
-  return out;
-}
-
 Image read_sky(const SideContext& context, const SideTable& table, const std::string& file) {
   try {
     return rgb_of(read_image(context.path.parent_path() / file));
