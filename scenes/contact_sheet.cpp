@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // contact_sheet OUT.png COLUMNS PICTURE LABEL [PICTURE LABEL]...: pictures of one size in a grid, a label
 // under each.
-#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -10,44 +9,21 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "image/draw.h"
 #include "image/io.h"
-#include "pixel_font.h"
 
 namespace sconce::demo {
 namespace {
 
 constexpr int kMargin = 16, kDot = 2, kLabelGap = 9;
-constexpr int kLabelHeight = kLabelGap + kGlyphHeight * kDot;
-constexpr unsigned char kPaper = 22, kInk = 200;
+const int kLabelHeight = kLabelGap + text_height(kDot);
+constexpr unsigned char kPaper = 22;
+constexpr Color8 kInk = {200, 200, 200};
 
 struct Entry {
   Image8 picture;
   std::string label;
 };
-
-void fill(Image8& sheet, int x, int y, int width, int height, unsigned char grey) {
-  for (int j = y; j < y + height; ++j)
-    for (int i = x; i < x + width; ++i)
-      for (int k = 0; k < 3; ++k) {
-        if (i < 0 || j < 0 || i >= sheet.width || j >= sheet.height) continue;
-        sheet.data[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(sheet.width) +
-                        static_cast<std::size_t>(i)) +
-                   static_cast<std::size_t>(k)] = grey;
-      }
-}
-
-void draw_label(Image8& sheet, int x, int y, const std::string& text) {
-  for (const char c : text) {
-    const std::size_t glyph =
-        kGlyphNames.find(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
-    if (glyph != std::string_view::npos)
-      for (int row = 0; row < kGlyphHeight; ++row)
-        for (int column = 0; column < kGlyphWidth; ++column)
-          if (kGlyphs[glyph][static_cast<std::size_t>(row)] >> (kGlyphWidth - 1 - column) & 1)
-            fill(sheet, x + column * kDot, y + row * kDot, kDot, kDot, kInk);
-    x += (kGlyphWidth + 1) * kDot;
-  }
-}
 
 void draw_picture(Image8& sheet, int x, int y, const Image8& picture) {
   const auto row = static_cast<std::size_t>(picture.width) * 3;
@@ -73,7 +49,7 @@ Image8 lay_out(const std::vector<Entry>& entries, int columns) {
     const int x = kMargin + k % columns * (width + kMargin),
               y = kMargin + k / columns * (height + kLabelHeight + kMargin);
     draw_picture(sheet, x, y, entry.picture);
-    draw_label(sheet, x, y + height + kLabelGap, entry.label);
+    draw_text(sheet, x, y + height + kLabelGap, entry.label, kDot, kInk);
   }
   return sheet;
 }

@@ -76,6 +76,7 @@ int run_shader(int argc, const char* const* argv);
 int run_luminaire(int argc, const char* const* argv);
 int run_transfer(int argc, const char* const* argv);
 int run_relight(int argc, const char* const* argv);
+int run_probe(int argc, const char* const* argv);
 int run_fit(int argc, const char* const* argv);
 int run_view(int argc, const char* const* argv);
 int run_diff(int argc, const char* const* argv);

@@ -28,6 +28,7 @@ constexpr Verb kVerbs[] = {
     {"transfer", "a package to an operator that carries moved lamps' light through all bounces",
      run_transfer},
     {"relight", "a package, its operator and moved lamps to a picture", run_relight},
+    {"probe", "lux at points or on a plane, per light group: table, page, picture", run_probe},
     {"fit", "faders that come nearest to a picture or to lux at points, as a preset", run_fit},
     {"view", "a window with faders, on a package or on a scene that is baked while you look", run_view},
     {"diff", "how far two images differ", run_diff},

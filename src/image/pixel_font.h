@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace sconce::demo {
+namespace sconce {
 
 inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
 inline constexpr std::string_view kGlyphNames = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-%.,#=";
@@ -37,4 +37,4 @@ inline constexpr std::array<std::array<uint8_t, kGlyphHeight>, kGlyphNames.size(
     {0x00, 0x00, 0x1f, 0x00, 0x1f, 0x00, 0x00},                                              // =
 }};
 
-}  // namespace sconce::demo
+}  // namespace sconce
