@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <sstream>
 
 #include "core/error.h"

@@ -65,8 +65,9 @@ std::string probe_csv(const ProbeReport& r) {
   text += "\n";
   for (std::size_t i = 0; i < r.lux.size(); ++i) {
     const SurfacePoint& p = r.at.points[i];
-    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}", p.position.x, p.position.y,
-                        p.position.z, p.normal.x, p.normal.y, p.normal.z, number(r.lux[i]));
+    text +=
+        fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}", p.position.x, p.position.y, p.position.z,
+                    p.shading_normal.x, p.shading_normal.y, p.shading_normal.z, number(r.lux[i]));
     if (!r.daylight.empty()) text += "," + number(r.daylight[i]);
     for (const auto& part : r.parts) text += "," + number(part[i]);
     text += "\n";
