@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "detect/materials.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "core/error.h"
+#include "detect/lambertian.h"
+
+namespace sconce {
+
+namespace {
+
+using Lights = DrawRequest::Lights;
+
+constexpr float kDrawn = 0.999f;   // transmission from which a face counts as not drawn
+constexpr float kAnswers = 1e-3f;  // of a white card under a light of 1: less is no answer
+constexpr float kCleared = 0.25f;  // how far the mean of pixels outside may be from the background
+
+/// Largest first, the first few of each material; all of them by face.
+std::vector<uint32_t> choose_faces(const Scene& scene, const World& world, const DetectParams& params) {
+  std::vector<uint32_t> all(world.size());
+  for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  if (params.per == DetectParams::Per::face) return all;
+  std::stable_sort(all.begin(), all.end(),
+                   [&](uint32_t a, uint32_t b) { return world.area(a) > world.area(b); });
+  std::vector<int> counts(scene.materials.size(), 0);
+  std::erase_if(all, [&](uint32_t t) { return ++counts[world.materials[t].value] > params.faces; });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// The axis that a face looks along most: 2 x coordinate, + 1 where negative.
+std::size_t facing_axis(const Vec3& n) {
+  const Vec3 a = glm::abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  return static_cast<std::size_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+}
+
+Vec3 axis_direction(std::size_t axis) {
+  Vec3 d(0);
+  d[static_cast<int>(axis / 2)] = axis % 2 == 0 ? 1.0f : -1.0f;
+  return d;
+}
+
+void check_cleared(const TextureSpace& space, const Captured& captured, float background,
+                   const std::string& what) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < space.pixels(); ++i)
+    if (space.covered[i] == 0) sum += static_cast<double>(luminance(captured.light[i])), ++count;
+  if (count > 0 && std::abs(sum / static_cast<double>(count) - static_cast<double>(background)) > kCleared)
+    throw Error("the renderer's drawing of " + what,
+                fmt::format("is {:.2g} outside the faces", sum / static_cast<double>(count)),
+                fmt::format("the background that was asked for, {}", background));
+}
+
+/// A line through what a face (y) and a white card in its place (x) do at several intensities, without light
+/// to begin with: its slope is the reflectance. Codes round emission too, and so it is no fixed point.
+class Slope {
+ public:
+  void add(const Rgb& x, const Rgb& y) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto u = static_cast<double>(channel(x, c)), v = static_cast<double>(channel(y, c));
+      Sums& s = sums_[c];
+      s.x += u, s.y += v, s.xx += u * u, s.xy += u * v;
+    }
+    ++count_;
+    most_ = std::max(most_, std::min({x.r, x.g, x.b}));
+  }
+  /// The brightest card's darkest channel.
+  float most() const { return most_; }
+  Rgb value() const { return Rgb(of(sums_[0]), of(sums_[1]), of(sums_[2])); }
+
+ private:
+  struct Sums {
+    double x = 0, y = 0, xx = 0, xy = 0;
+  };
+  static float channel(const Rgb& c, std::size_t i) { return i == 0 ? c.r : i == 1 ? c.g : c.b; }
+  float of(const Sums& s) const {
+    return static_cast<float>((count_ * s.xy - s.x * s.y) / (count_ * s.xx - s.x * s.x));
+  }
+  std::array<Sums, 3> sums_;
+  double count_ = 0;
+  float most_ = 0;
+};
+
+class Detector {
+ public:
+  Detector(const Scene& scene, const World& world, const HostRenderer& host, const DetectParams& params,
+           const Progress& progress)
+      : scene_(scene), world_(world), host_(host), params_(params), progress_(progress) {}
+
+  Detection run() {
+    const std::vector<uint32_t> chosen = choose_faces(scene_, world_, params_);
+    space_ = face_cells(chosen, std::vector<int>(chosen.size(), params_.texels));
+    unlit();
+    reflections();
+    by_material();
+    held_out();
+    return std::move(out_);
+  }
+
+ private:
+  Captured draw(const DrawRequest& request, const std::string& what) {
+    progress_.check();
+    Captured captured = capture(host_, space_, request, what);
+    out_.cost += captured.cost;
+    progress_.at("materials", out_.cost.draws, 0);
+    return captured;
+  }
+
+  void unlit() {
+    DrawRequest request;
+    request.eye = far_eye(axis_direction(4));
+    const std::string on_black = "unlit faces on black", on_white = "unlit faces on white";
+    const Captured black = draw(request, on_black);
+    request.background = 1;
+    const Captured white = draw(request, on_white);
+    check_cleared(space_, black, 0, on_black);
+    check_cleared(space_, white, 1, on_white);
+    bool clipped = false;
+    for (std::size_t i = 0; i < space_.triangles.size(); ++i) {
+      SurfaceResponse r;
+      r.emission = face_mean(space_, i, black, clipped);
+      const Rgb through = face_mean(space_, i, white, clipped) - r.emission;
+      r.transmission = Rgb(std::clamp(through.r, 0.0f, 1.0f), std::clamp(through.g, 0.0f, 1.0f),
+                           std::clamp(through.b, 0.0f, 1.0f));
+      out_.faces.push_back({space_.triangles[i], r});
+    }
+  }
+
+  void reflections() {
+    std::vector<Slope> slopes(space_.triangles.size());
+    for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i].add(Rgb(), out_.faces[i].response.emission);
+    std::array<bool, 6> wanted{};
+    for (const uint32_t t : space_.triangles) wanted[facing_axis(world_.face_normals[t])] = true;
+    for (std::size_t axis = 0; axis < wanted.size(); ++axis)
+      if (wanted[axis]) add_light(axis, slopes);
+
+    std::size_t answers = 0;
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      SurfaceResponse& r = out_.faces[i].response;
+      const bool drawn = luminance(r.transmission) < kDrawn;
+      const bool answered = slopes[i].most() > kAnswers;
+      if (!drawn) ++out_.undrawn;
+      if (drawn && answered) ++answers;
+      known_.push_back(drawn && answered ? 1 : 0);
+      if (!answered) continue;
+      limit(slopes[i].value(), r);
+    }
+    if (out_.undrawn == out_.faces.size())
+      throw Error("the renderer", fmt::format("drew none of {} faces: white stays white", out_.faces.size()));
+    if (answers == 0)
+      throw Error("the renderer",
+                  "shows a white card under one light as black, or as bright as its target can",
+                  "a diffuse card of reflectance 1, lit by one light of the intensity that was asked for");
+  }
+
+  /// Rounded readings differ with the intensity, and so their mean is finer than a code.
+  void add_light(std::size_t axis, std::vector<Slope>& slopes) {
+    static constexpr std::array kIntensities{1.0f, 1.6f, 1.5f, 1.4f, 1.3f, 1.2f,
+                                             1.1f, 0.9f, 0.8f, 0.7f, 0.5f, 0.3f};
+    DrawRequest request;
+    request.lights = Lights::probe;
+    request.probe.to_light = axis_direction(axis);
+    request.eye = far_eye(normalize_or(Frame(request.probe.to_light).x + 0.4f * request.probe.to_light, {}));
+    for (const float intensity : kIntensities) {
+      request.probe.intensity = intensity;
+      request.white_card = false;
+      const Captured faces = draw(request, "faces under one light");
+      request.white_card = true;
+      const Captured card = draw(request, "a white card under one light");
+      for (std::size_t i = 0; i < slopes.size(); ++i) {
+        if (facing_axis(world_.face_normals[space_.triangles[i]]) != axis) continue;
+        bool clipped = false;
+        const Rgb lit = face_mean(space_, i, faces, clipped), white = face_mean(space_, i, card, clipped);
+        if (clipped) continue;
+        slopes[i].add(white, lit);
+      }
+      if (host_.format == TargetFormat::linear) break;
+    }
+  }
+
+  /// Light must die out, whatever was read.
+  void limit(const Rgb& rho, SurfaceResponse& r) const {
+    const auto channel = [&](float reflected, float& through) {
+      reflected = std::max(reflected, 0.0f);
+      const float scale = std::min(1.0f, params_.most_reflected / std::max(reflected + through, 1e-6f));
+      through *= scale;
+      return reflected * scale;
+    };
+    r.reflectance.r = channel(rho.r, r.transmission.r);
+    r.reflectance.g = channel(rho.g, r.transmission.g);
+    r.reflectance.b = channel(rho.b, r.transmission.b);
+  }
+
+  void by_material() {
+    out_.materials.resize(scene_.materials.size());
+    std::vector<float> areas(scene_.materials.size(), 0);
+    for (std::size_t i = 0; i < out_.faces.size(); ++i) {
+      if (known_[i] == 0) continue;
+      const DetectedFace& face = out_.faces[i];
+      const uint32_t m = world_.materials[face.triangle].value;
+      const float area = world_.area(face.triangle);
+      DetectedMaterial& material = out_.materials[m];
+      ++material.faces;
+      areas[m] += area;
+      material.response.emission += area * face.response.emission;
+      material.response.transmission += area * face.response.transmission;
+      material.response.reflectance += area * face.response.reflectance;
+    }
+    for (std::size_t m = 0; m < areas.size(); ++m)
+      if (areas[m] > 0)
+        for (Rgb* sum : {&out_.materials[m].response.emission, &out_.materials[m].response.transmission,
+                         &out_.materials[m].response.reflectance})
+          *sum *= 1 / areas[m];
+    for (std::size_t i = 0; i < out_.faces.size(); ++i) {
+      DetectedFace& face = out_.faces[i];
+      DetectedMaterial& material = out_.materials[world_.materials[face.triangle].value];
+      if (known_[i] == 0) {
+        face.response = material.response;
+        continue;
+      }
+      const Rgb d = face.response.reflectance - material.response.reflectance;
+      material.spread = std::max({material.spread, std::abs(d.r), std::abs(d.g), std::abs(d.b)});
+    }
+    if (params_.per == DetectParams::Per::material)
+      for (std::size_t m = 0; m < out_.materials.size(); ++m)
+        if (out_.materials[m].spread > params_.spread_above)
+          out_.findings.push_back(
+              fmt::format("{} is not uniform: its faces differ by {:.0f} %; detect by face",
+                          scene_.materials[m].name, 100 * out_.materials[m].spread));
+  }
+
+  void held_out() {
+    std::vector<DetectedFace> known;
+    for (std::size_t i = 0; i < out_.faces.size(); ++i)
+      if (known_[i] != 0) known.push_back(out_.faces[i]);
+    const std::vector<HeldOut> found =
+        held_out_residuals(world_, host_, known, scene_.materials.size(), params_.texels, params_.flag_above,
+                           progress_, out_.cost);
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      DetectedMaterial& material = out_.materials[m];
+      material.residual = found[m].residual;
+      material.lambertian = found[m].holds;
+      if (!material.lambertian)
+        out_.findings.push_back(
+            fmt::format("{} is not Lambertian: {:.0f} %", scene_.materials[m].name, 100 * material.residual));
+    }
+  }
+
+  Vec3 far_eye(const Vec3& direction) const {
+    return world_.bounds.center() + 10 * world_.bounds.diagonal() * direction;
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const HostRenderer& host_;
+  const DetectParams& params_;
+  const Progress& progress_;
+  TextureSpace space_;
+  std::vector<uint8_t> known_;  ///< per face: 1 where it was drawn and its card answers
+  Detection out_;
+};
+
+}  // namespace
+
+Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped) {
+  std::array<double, 3> sum{};
+  double count = 0;
+  each_pixel(space, face, [&](std::size_t pixel) {
+    const Rgb& light = captured.light[pixel];
+    sum[0] += static_cast<double>(light.r), sum[1] += static_cast<double>(light.g);
+    sum[2] += static_cast<double>(light.b);
+    clipped = clipped || captured.is_clipped(pixel);
+    ++count;
+  });
+  const double scale = 1 / std::max(count, 1.0);
+  return Rgb(static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+             static_cast<float>(sum[2] * scale));
+}
+
+const SurfaceResponse& Detection::of(const World& world, uint32_t triangle) const {
+  const auto it = std::lower_bound(faces.begin(), faces.end(), triangle,
+                                   [](const DetectedFace& f, uint32_t t) { return f.triangle < t; });
+  if (it != faces.end() && it->triangle == triangle) return it->response;
+  return materials[world.materials[triangle].value].response;
+}
+
+Detection detect_materials(const Scene& scene, const World& world, const HostRenderer& host,
+                           const DetectParams& params, const Progress& progress) {
+  if (params.texels < 1 || params.faces < 1)
+    throw UsageError("material detection", "no texels or no faces", "1 or more of each");
+  return Detector(scene, world, host, params, progress).run();
+}
+
+Scene with_detected(Scene scene, const Detection& detection) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    if (detection.materials[m].faces == 0) continue;
+    Material plain;
+    plain.name = scene.materials[m].name;
+    plain.double_sided = scene.materials[m].double_sided;
+    plain.base_color = detection.materials[m].response.reflectance;
+    plain.emission = detection.materials[m].response.emission;
+    scene.materials[m] = plain;
+  }
+  return scene;
+}
+
+}  // namespace sconce
