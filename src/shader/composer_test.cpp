@@ -3,18 +3,13 @@
 #include "shader/composer.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <functional>
 #include <random>
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/program.h"
-
-namespace fs = std::filesystem;
+#include "shader/test_glslang.h"
 
 namespace sconce {
 namespace {
@@ -73,22 +68,7 @@ class Shaders {
 
   void add_text(const std::string& text) { texts_.insert(text); }
 
-  void expect_valid() const {
-    constexpr std::size_t kAtOnce = 400;
-    const fs::path folder = fs::temp_directory_path() / ("composer_test." + std::to_string(::getpid()));
-    fs::create_directories(folder);
-    std::vector<std::string> command{"glslangValidator"};
-    std::size_t n = 0;
-    for (const std::string& text : texts_) {
-      command.push_back((folder / (std::to_string(n++) + ".frag")).string());
-      write_file(command.back(), text);
-      if (command.size() <= kAtOnce && n < texts_.size()) continue;
-      const int code = run_program(command, folder / "out", folder / "error", {});
-      EXPECT_EQ(code, 0) << read_file(folder / "out").substr(0, 2000) << read_file(folder / "error");
-      command.resize(1);
-    }
-    fs::remove_all(folder);
-  }
+  void expect_valid() const { expect_valid_glsl(texts_, "frag"); }
   std::size_t size() const { return texts_.size(); }
 
  private:
