@@ -90,7 +90,7 @@ int run_transfer(int argc, const char* const* argv) {
     TransferState state(fs::path(path) += ".state",
                         fmt::format("{} {} {} {}", SCONCE_VERSION, isa(), scene, key_of(params, receivers)),
                         resume);
-    op = make_operator(view, receivers, params, scene, {progress, &state});
+    op = make_operator(view.traced(), receivers, params, scene, {progress, &state});
     op.options = options_text(options);
     write_operator(path, op);
     state.remove();

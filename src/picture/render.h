@@ -51,6 +51,7 @@ class View {
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
   const World& world() const { return shown_.world; }
   const Tracer& tracer() const { return tracer_; }
+  TracedScene traced() const { return {scene(), world(), tracer_}; }
   /// Where that side of a World triangle lies in the lightmap.
   const LightmapSide& side(std::size_t triangle, bool back) const {
     return (back ? shown_.back : shown_.front)[triangle];

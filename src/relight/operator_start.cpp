@@ -48,15 +48,15 @@ void light_points(const GatherCloud& cloud, const CloudSquare& square, uint32_t 
 
 }  // namespace
 
-OperatorStart::OperatorStart(const View& view, const RelightReceivers& receivers,
+OperatorStart::OperatorStart(const TracedScene& traced, const RelightReceivers& receivers,
                              const TransferParams& params, std::size_t leaf, const Progress& progress) {
   if (receivers.source.count == 0) throw Error({}, "nothing receives light here");
-  const float diagonal = view.world().bounds.diagonal();
-  cloud = make_cloud_of(view.scene(), view.world(), view.tracer(), receivers.source, params.gather,
+  const float diagonal = traced.world.bounds.diagonal();
+  cloud = make_cloud_of(traced.scene, traced.world, traced.tracer, receivers.source, params.gather,
                         params.seed, progress);
   progress.check();
   const std::vector<uint8_t> seen =
-      seen_samples(view.world(), view.tracer(), *cloud, receivers.source, params.seed);
+      seen_samples(traced.world, traced.tracer, *cloud, receivers.source, params.seed);
   progress.check();
   square = make_cloud_square(*cloud, params.gather, seen, diagonal);
 

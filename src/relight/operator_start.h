@@ -13,7 +13,7 @@ namespace sconce {
 
 struct OperatorStart {
   /// @param leaf  receivers that stay together are multiples of it
-  OperatorStart(const View& view, const RelightReceivers& receivers, const TransferParams& params,
+  OperatorStart(const TracedScene& traced, const RelightReceivers& receivers, const TransferParams& params,
                 std::size_t leaf, const Progress& progress);
 
   /// Receiver i of the file, which is `order[i]` of the source, at its middle.

@@ -38,13 +38,13 @@ void check(const TransferParams& p) {
 /// Hits of one receiver's rays as a sparse row.
 class RowMaker {
  public:
-  RowMaker(const View& view, const GatherCloud& cloud, const CloudSquare& square)
-      : view_(view), cloud_(cloud), square_(square) {}
+  RowMaker(const TracedScene& traced, const GatherCloud& cloud, const CloudSquare& square)
+      : traced_(traced), cloud_(cloud), square_(square) {}
 
   void start() { met_.clear(); }
   /// Sends ray r of the row.
   void shoot(const SurfacePoint& from, uint32_t r, uint32_t stream) {
-    const auto sample = follow_row_ray(view_.world(), view_.tracer(), cloud_, from, r, stream,
+    const auto sample = follow_row_ray(traced_.world, traced_.tracer, cloud_, from, r, stream,
                                        [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
     if (sample) met_.push_back(*sample);
   }
@@ -65,7 +65,7 @@ class RowMaker {
   }
 
  private:
-  const View& view_;
+  const TracedScene& traced_;
   const GatherCloud& cloud_;
   const CloudSquare& square_;
   std::vector<uint32_t> met_;
@@ -96,7 +96,7 @@ std::vector<std::vector<SparseEntry>> make_rows(const RowMaker& prototype, std::
 
 /// The cloud's own light: `first` and `bounce`, their albedos and sweeps.
 /// @param lights  per lamp: b_d per slot
-void make_bounces(const View& view, const TransferParams& params, const OperatorStart& start,
+void make_bounces(const TracedScene& traced, const TransferParams& params, const OperatorStart& start,
                   std::span<const std::vector<Rgbx>> lights, const TransferWork& work, Operator& op) {
   const auto slots = static_cast<uint32_t>(params.gather);
   const auto albedo = std::make_shared<std::vector<Rgbx>>(slots);
@@ -107,7 +107,7 @@ void make_bounces(const View& view, const TransferParams& params, const Operator
   op.albedo = *albedo;
   op.owners.push_back(albedo);
 
-  const RowMaker maker(view, *start.cloud, start.square);
+  const RowMaker maker(traced, *start.cloud, start.square);
   const auto slot_row = [&](std::size_t slot, RowMaker& rows, std::vector<SparseEntry>& row) {
     constexpr uint32_t kRays = 32;
     const uint32_t stream = mix32(mix32(params.seed, kBounceStream), static_cast<uint32_t>(slot)),
@@ -128,7 +128,8 @@ void make_bounces(const View& view, const TransferParams& params, const Operator
   // The same rows twice: for direct light, whose edges are sharp, and for what was reflected and is even.
   const auto fit = [&](std::span<const std::vector<Rgbx>> lit, int coefficients, ClusterRows& out) {
     const TrainingLight light(transformed_luminance(lit));
-    ClusterRowsBuilder builder(slots, light, {kSlotCluster, static_cast<std::size_t>(coefficients)});
+    ClusterRowsBuilder builder(slots, light,
+                               {kSlotCluster, static_cast<std::size_t>(coefficients), params.keep_sums});
     for_blocks(builder.clusters(), "bounces", work.progress, [&](std::size_t c) {
       const std::size_t first = kSlotCluster * c;
       builder.set_cluster(c,
@@ -146,10 +147,10 @@ void make_bounces(const View& view, const TransferParams& params, const Operator
 }
 
 /// F, fitted to the lights after all bounces.
-void make_gather(const View& view, const RelightReceivers& receivers, const TransferParams& params,
+void make_gather(const TracedScene& traced, const RelightReceivers& receivers, const TransferParams& params,
                  const OperatorStart& start, const TrainingLight& light, const TransferWork& work,
                  Operator& op) {
-  const RowMaker maker(view, *start.cloud, start.square);
+  const RowMaker maker(traced, *start.cloud, start.square);
   const auto rays = static_cast<uint32_t>(params.rays);
   const auto row = [&](std::size_t i, RowMaker& rows, std::vector<SparseEntry>& out) {
     const uint32_t own = start.order[i];
@@ -161,8 +162,9 @@ void make_gather(const View& view, const RelightReceivers& receivers, const Tran
   };
   const auto cluster = static_cast<std::size_t>(params.cluster);
   const std::size_t count = start.order.size();
-  ClusterRowsBuilder gather(static_cast<uint32_t>(count), light,
-                            {static_cast<uint32_t>(cluster), static_cast<std::size_t>(params.coefficients)});
+  ClusterRowsBuilder gather(
+      static_cast<uint32_t>(count), light,
+      {static_cast<uint32_t>(cluster), static_cast<std::size_t>(params.coefficients), params.keep_sums});
   for_blocks(gather.clusters(), "gather rows", work.progress, [&](std::size_t c) {
     if (work.state != nullptr)
       if (std::string_view bytes = work.state->find(c); !bytes.empty()) return gather.unpack(c, bytes);
@@ -180,15 +182,15 @@ void make_gather(const View& view, const RelightReceivers& receivers, const Tran
 
 }  // namespace
 
-Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
-                       const std::string& scene, const TransferWork& work) {
+Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
+                       const TransferParams& params, const std::string& scene, const TransferWork& work) {
   check(params);
-  OperatorStart start(view, receivers, params, static_cast<std::size_t>(params.cluster), work.progress);
+  OperatorStart start(traced, receivers, params, static_cast<std::size_t>(params.cluster), work.progress);
   Operator op = std::move(start.op);
   op.scene = scene;
   std::vector<std::vector<Rgbx>> lights =
-      training_lights(view, receivers, start.middles, op, params.lights, params.seed, work.progress);
-  make_bounces(view, params, start, lights, work, op);
+      training_lights(traced, receivers, start.middles, op, params.lights, params.seed, work.progress);
+  make_bounces(traced, params, start, lights, work, op);
   work.progress.check();
 
   // Receivers see the training lights after all bounces.
@@ -198,7 +200,7 @@ Operator make_operator(const View& view, const RelightReceivers& receivers, cons
   });
   const TrainingLight light(transformed_luminance(lights));
   lights = {};
-  make_gather(view, receivers, params, start, light, work, op);
+  make_gather(traced, receivers, params, start, light, work, op);
   return op;
 }
 

@@ -17,6 +17,7 @@ struct TransferParams {
   int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
   int points = 4;                 ///< per slot, where direct light is asked for
   int lights = 256;               ///< that rows are fitted to
+  bool keep_sums = false;         ///< of rows: even light is exact, lamps a little less so
   uint32_t seed = 1;
 };
 
@@ -30,8 +31,8 @@ struct TransferWork {
 /// threads.
 /// @param scene  hash that ties the file to its package: operator_scene()
 /// @throws UsageError naming the option; Cancelled
-Operator make_operator(const View& view, const RelightReceivers& receivers, const TransferParams& params,
-                       const std::string& scene, const TransferWork& work = {});
+Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
+                       const TransferParams& params, const std::string& scene, const TransferWork& work = {});
 
 /// Identity of what an operator depends on in a package: geometry, materials, texels.
 std::string operator_scene(const Package& package);

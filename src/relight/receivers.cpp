@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <map>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -58,19 +59,71 @@ Atlas package_atlas(const Package& package, const View& view) {
   return atlas;
 }
 
-RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress) {
+RelightReceivers texel_receivers(const TracedScene& traced, Atlas atlas, const Progress& progress) {
   struct State {
     Atlas atlas;
     std::unique_ptr<TexelReceivers> texels;
   };
   const auto state = std::make_shared<State>();
-  state->atlas = package_atlas(package, view);
-  state->texels = std::make_unique<TexelReceivers>(view.world(), view.tracer(), state->atlas, progress);
+  state->atlas = std::move(atlas);
+  state->texels = std::make_unique<TexelReceivers>(traced.world, traced.tracer, state->atlas, progress);
   RelightReceivers out;
   out.width = state->atlas.width, out.height = state->atlas.height, out.pages = state->atlas.pages;
   for (std::size_t i = 0; i < state->texels->size(); ++i) out.places.push_back(state->texels->texel(i));
   out.source = {state->texels->size(), [state](std::size_t i) { return state->texels->footprint(i); }};
-  out.albedo = [state, &view](std::size_t i) { return state->texels->albedo(view.scene(), i); };
+  out.albedo = [state, &scene = traced.scene](std::size_t i) { return state->texels->albedo(scene, i); };
+  return out;
+}
+
+RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress) {
+  return texel_receivers(view.traced(), package_atlas(package, view), progress);
+}
+
+RelightReceivers vertex_receivers(const TracedScene& traced) {
+  const World& world = traced.world;
+  /// CSR: corners of faces around each vertex, as 3 x triangle + corner.
+  struct Around {
+    std::vector<uint32_t> first, corners;
+  };
+  const auto around = std::make_shared<Around>();
+  around->first.assign(world.positions.size() + 1, 0);
+  for (const Triangle& t : world.triangles)
+    for (const uint32_t v : t.v) ++around->first[v + 1];
+  std::partial_sum(around->first.begin(), around->first.end(), around->first.begin());
+  around->corners.resize(around->first.back());
+  std::vector<uint32_t> cursor(around->first.begin(), around->first.end() - 1);
+  for (uint32_t k = 0; k < 3 * world.size(); ++k)
+    around->corners[cursor[world.triangles[k / 3].v[k % 3]]++] = k;
+
+  RelightReceivers out;
+  out.kind = OperatorReceivers::vertices;
+  out.width = static_cast<int>(world.positions.size()), out.height = out.pages = 1;
+  for (uint32_t v = 0; v < world.positions.size(); ++v)
+    if (around->first[v] != around->first[v + 1]) out.places.push_back(v);
+  out.source.count = out.places.size();
+  out.source.footprint = [around, &world, places = out.places](std::size_t i) {
+    constexpr float kInto = 0.125f;  // of the edges' lengths
+    Footprint footprint;
+    footprint.kind = ReceiverKind::vertex, footprint.id = places[i];
+    for (uint32_t k = around->first[places[i]]; k < around->first[places[i] + 1]; ++k) {
+      const uint32_t t = around->corners[k] / 3, corner = around->corners[k] % 3;
+      constexpr std::array<Vec2, 3> kCorners{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+      const Vec2 at = kCorners[corner];
+      const auto point = [&](uint32_t c) { return at + kInto * (kCorners[(corner + c) % 3] - at); };
+      footprint.pieces.push_back({world.position(t, at), world.position(t, point(1)),
+                                  world.position(t, point(2)), world.normal(t, at), world.normal(t, point(1)),
+                                  world.normal(t, point(2)), world.face_normals[t]});
+      footprint.area += kInto * kInto * world.area(t);
+      footprint.pieces.back().cumulative = footprint.area;
+    }
+    for (FootprintPiece& piece : footprint.pieces) piece.cumulative /= footprint.area;
+    footprint.pieces.back().cumulative = 1;
+    return footprint;
+  };
+  out.albedo = [around, traced, places = out.places](std::size_t i) {
+    const uint32_t k = around->corners[around->first[places[i]]];
+    return shade(traced.scene, traced.world, k / 3, Vec2(1.0f / 3)).receiver_albedo();
+  };
   return out;
 }
 

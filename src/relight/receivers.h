@@ -24,6 +24,13 @@ struct RelightReceivers {
 /// scene's
 Atlas package_atlas(const Package& package, const View& view);
 
+/// The texels of a lightmap. The scene must outlive it.
+RelightReceivers texel_receivers(const TracedScene& traced, Atlas atlas, const Progress& progress = {});
+
+/// The vertices of the world: each a little into the faces around it, by their area, since a point on the
+/// edge of a room lies in the planes of its walls. Places are vertices; those without faces are none.
+RelightReceivers vertex_receivers(const TracedScene& traced);
+
 /// The texels that were baked. Package and view must outlive it.
 RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress = {});
 

@@ -20,9 +20,9 @@ struct TrainingLamp {
   float cosine = -1;
 };
 
-TrainingLamp random_lamp(const View& view, const RelightReceivers& receivers,
+TrainingLamp random_lamp(const TracedScene& traced, const RelightReceivers& receivers,
                          std::span<const SurfacePoint> middles, uint32_t number, uint32_t seed) {
-  const float diagonal = view.world().bounds.diagonal();
+  const float diagonal = traced.world.bounds.diagonal();
   TrainingLamp lamp;
   Sampler sampler(seed, kStream, number);
   for (int tries = 0; tries < 16; ++tries) {
@@ -34,9 +34,9 @@ TrainingLamp random_lamp(const View& view, const RelightReceivers& receivers,
       const Vec3 to_eye = Vec3(receivers.camera.frame[3]) - from.position;
       distance = glm::length(to_eye), direction = normalize_or(to_eye, from.geometric_normal);
     } else {
-      distance = view.tracer()
-                     .closest({offset_origin(from.position, from.geometric_normal, direction), direction})
-                     .distance;
+      distance =
+          traced.tracer.closest({offset_origin(from.position, from.geometric_normal, direction), direction})
+              .distance;
     }
     lamp.position = from.position + (0.15f + 0.7f * pick.y) * distance * direction;
     lamp.axis = Frame(-direction).to_world(square_to_cosine(aim));
@@ -48,16 +48,16 @@ TrainingLamp random_lamp(const View& view, const RelightReceivers& receivers,
 
 }  // namespace
 
-std::vector<std::vector<Rgbx>> training_lights(const View& view, const RelightReceivers& receivers,
+std::vector<std::vector<Rgbx>> training_lights(const TracedScene& traced, const RelightReceivers& receivers,
                                                std::span<const SurfacePoint> middles, const Operator& op,
                                                int count, uint32_t seed, const Progress& progress) {
   const std::size_t slots = op.lit.size() / op.points_per_slot;
-  const float least = kNearest * view.world().bounds.diagonal();
+  const float least = kNearest * traced.world.bounds.diagonal();
   std::vector<std::vector<Rgbx>> lights(static_cast<std::size_t>(count));
   std::atomic<uint64_t> done = 0;
   parallel_for(lights.size(), 1, [&](std::size_t t) {
     progress.check();
-    const TrainingLamp lamp = random_lamp(view, receivers, middles, static_cast<uint32_t>(t), seed);
+    const TrainingLamp lamp = random_lamp(traced, receivers, middles, static_cast<uint32_t>(t), seed);
     std::vector<Rgbx>& light = lights[t];
     light.assign(slots, Rgbx{});
     for (std::size_t slot = 0; slot < slots; ++slot) {
@@ -68,7 +68,7 @@ std::vector<std::vector<Rgbx>> training_lights(const View& view, const RelightRe
       const Vec3 to = (lamp.position - at) / distance, normal = unpack_normal(p.geometric);
       const float cosine = glm::dot(to, unpack_normal(p.shading));
       if (!(cosine > 0) || !(glm::dot(to, normal) > 0) || glm::dot(-to, lamp.axis) < lamp.cosine) continue;
-      if (view.tracer().occluded({offset_origin(at, normal, normal), to, distance})) continue;
+      if (traced.tracer.occluded({offset_origin(at, normal, normal), to, distance})) continue;
       const Rgb b = unpack_albedo(p.albedo) * (cosine / std::max(distance * distance, least * least));
       light[slot] = {b.r, b.g, b.b, 0};
     }

@@ -9,7 +9,7 @@ namespace sconce {
 /// each. They stand where they are looked at: between receivers and the camera, or on cosine-distributed rays
 /// from receivers; points and spots in turn.
 /// @param middles  of the receivers
-std::vector<std::vector<Rgbx>> training_lights(const View& view, const RelightReceivers& receivers,
+std::vector<std::vector<Rgbx>> training_lights(const TracedScene& traced, const RelightReceivers& receivers,
                                                std::span<const SurfacePoint> middles, const Operator& op,
                                                int count, uint32_t seed, const Progress& progress = {});
 

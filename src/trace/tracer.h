@@ -52,6 +52,13 @@ class Tracer {
   std::unique_ptr<State> state_;
 };
 
+/// A scene made ready for rays. What it refers to must outlive it.
+struct TracedScene {
+  const Scene& scene;
+  const World& world;
+  const Tracer& tracer;
+};
+
 /// Instruction set that Embree's kernels run on here. Same binary and same ISA give the same bits.
 std::string isa();
 

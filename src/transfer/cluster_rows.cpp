@@ -61,6 +61,20 @@ Matrix principal(const Matrix& answers) {
   return out;
 }
 
+/// The same, of which the first column holds all of the rows' sums.
+Matrix principal_with_sums(Matrix answers, std::span<const std::vector<SparseEntry>> rows) {
+  Eigen::VectorXf sums = Eigen::VectorXf::Zero(answers.rows());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const SparseEntry& e : rows[i]) sums(static_cast<Eigen::Index>(i)) += e.value;
+  if (!(sums.norm() > 0)) return principal(answers);
+  sums.normalize();
+  answers -= sums * (sums.transpose() * answers).eval();
+  const Matrix rest = principal(answers);
+  Matrix out(rest.rows(), rest.cols());
+  out << sums, rest.leftCols(rest.cols() - 1);
+  return out;
+}
+
 }  // namespace
 
 ClusterRowsBuilder::ClusterRowsBuilder(uint32_t rows, const TrainingLight& light, const Params& params)
@@ -74,7 +88,7 @@ ClusterRowsBuilder::ClusterRowsBuilder(uint32_t rows, const TrainingLight& light
 
 void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::vector<SparseEntry>> rows) {
   const Matrix seen = answers(rows, light_);
-  const Matrix weights = principal(seen);
+  const Matrix weights = params_.keep_sums ? principal_with_sums(seen, rows) : principal(seen);
   const std::size_t first = cluster * params_.cluster;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = weights.row(static_cast<Eigen::Index>(i));
@@ -122,7 +136,7 @@ void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::v
     const Eigen::Map<const Matrix> fit(light_.fit().data(), static_cast<Eigen::Index>(coarse),
                                        static_cast<Eigen::Index>(light_.count()));
     const Matrix more = fit * left.transpose();
-    for (std::size_t k = 0; k < coarse; ++k)
+    for (std::size_t k = params_.keep_sums ? 1 : 0; k < coarse; ++k)
       for (std::size_t j = 0; j < kRank; ++j)
         basis[k][j] += more(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j));
   }

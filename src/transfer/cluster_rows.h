@@ -41,6 +41,7 @@ class ClusterRowsBuilder {
   struct Params {
     uint32_t cluster = 512;
     std::size_t coefficients = 1024;  ///< of a basis
+    bool keep_sums = false;  ///< of rows, exactly: even light stays so whatever the training lights are
   };
   /// @param light  must outlive it
   ClusterRowsBuilder(uint32_t rows, const TrainingLight& light, const Params& params);

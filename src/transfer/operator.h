@@ -26,12 +26,12 @@ Vec3 unpack_normal(const std::array<int16_t, 2>& packed);
 std::array<uint16_t, 4> pack_albedo(const Rgb& albedo);
 Rgb unpack_albedo(const std::array<uint16_t, 4>& packed);
 
-enum class OperatorReceivers : uint32_t { texels, pixels };
+enum class OperatorReceivers : uint32_t { texels, pixels, vertices };
 
 /// Arrays may lie in a mapped file, which `owner` keeps.
 struct Operator {
   OperatorReceivers kind = OperatorReceivers::texels;
-  int width = 0, height = 0, pages = 0;  ///< of the lightmap, or of the picture (pages 1)
+  int width = 0, height = 0, pages = 0;  ///< of the lightmap or the picture (pages 1); vertices x 1 x 1
   std::string camera;                    ///< of pixels: its name
   Mat4 camera_frame{1.0f};
   float camera_yfov = 0;

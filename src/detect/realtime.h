@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light for a foreign renderer, frame by frame: its direct light is read from its own picture, all
+// bounces come by the transfer operator, and what returns is an ambient term (Hrbek 2006, step three).
+#pragma once
+
+#include <memory>
+
+#include "detect/materials.h"
+#include "relight/precompute.h"
+#include "transfer/folded_bounces.h"
+
+namespace sconce {
+
+/// What a frame did.
+struct FrameReport {
+  std::string fault;  ///< of the renderer; empty: none. Else the ambient term is 0: it goes on without
+  CaptureCost capture;
+  double solve_milliseconds = 0;
+  std::size_t clipped = 0;  ///< points whose light is brighter than the target can hold
+
+  explicit operator bool() const { return fault.empty(); }
+};
+
+/// Light is in the renderer's unit: 1 is what it shows as 1. A surface shows
+/// emission + reflectance x (its own direct light + ambient).
+class RealtimeRadiosity {
+ public:
+  /// Follows rays, once. @param traced  must outlive it, as what the receivers refer to
+  /// @param direct   where faces are drawn to see their light; the faces of all that sends light on
+  /// @throws UsageError, Cancelled, as make_operator()
+  RealtimeRadiosity(const TracedScene& traced, const RelightReceivers& receivers, TextureSpace direct,
+                    HostRenderer host, const TransferParams& params = {}, const Progress& progress = {});
+
+  /// Reflectances by face or by material. Without rays: after a change of the renderer's materials, too.
+  void set_materials(const Detection& detection);
+  /// Lets the renderer draw its direct light and solves. The first frame after any change has all bounces:
+  /// nothing is carried over from frame to frame.
+  FrameReport update();
+
+  /// Light by reflection, per texel (page x height x width + y x width + x; those around receivers have their
+  /// neighbours') or vertex, linear. To be multiplied by the surface's own reflectance and added.
+  std::span<const Rgb> ambient() const { return ambient_; }
+  const Operator& transfer() const { return op_; }
+  const TextureSpace& direct_space() const { return direct_; }
+  /// Points that stand for the light of the surfaces, and those of them that no drawn face covers: black.
+  std::size_t points() const { return blends_.size(); }
+  std::size_t uncovered() const { return uncovered_; }
+
+ private:
+  struct Copy {
+    uint32_t to, from;
+  };
+  void find_faces(const TracedScene& traced);
+  void find_copies();
+
+  const World& world_;
+  TextureSpace direct_;
+  HostRenderer host_;
+  Operator op_;
+  std::unique_ptr<FoldedBounces> bounces_;
+  std::vector<uint32_t> faces_;     ///< per lit point: its triangle, or kNone
+  std::vector<PixelBlend> blends_;  ///< per lit point: what it reads
+  std::size_t uncovered_ = 0;
+  std::vector<Copy> copies_;  ///< texels around receivers
+  std::vector<Rgb> indirect_, ambient_;
+};
+
+}  // namespace sconce

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light for a renderer that is known, against closed forms; numbers refer to the analytic tests in
+// docs/methods.md.
+#include "detect/realtime.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "detect/synthetic_host.h"
+#include "scene/shapes.h"
+
+namespace sconce {
+namespace {
+
+TransferParams quick() {
+  TransferParams params;
+  params.gather = 1024, params.rays = 128, params.lights = 48, params.keep_sums = true, params.cluster = 64;
+  return params;
+}
+
+/// A box or a ball from the inside, its renderer, and its solver.
+struct Rig {
+  Scene scene;
+  World world;
+  Tracer tracer;
+  SyntheticHost host;
+  Detection detection;
+  RealtimeRadiosity radiosity;
+
+  Rig(Scene s, std::vector<SyntheticMaterial> materials, std::vector<SyntheticLamp> lamps)
+      : scene(std::move(s)),
+        world(make_world(scene)),
+        tracer(scene, world),
+        host{world, std::move(materials)},
+        detection(detect_materials(scene, world, host.renderer())),
+        radiosity(traced(), vertex_receivers(traced()), cells(), host.renderer(), quick()) {
+    host.lamps = std::move(lamps);
+    host.tracer = &tracer;
+    radiosity.set_materials(detection);
+  }
+  TracedScene traced() const { return {scene, world, tracer}; }
+  TextureSpace cells() const {
+    std::vector<uint32_t> all(world.size());
+    for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+    return face_cells(all, texels_by_area(world, all, 0.1f, 64));
+  }
+  double mean() const {
+    double sum = 0;
+    for (const Rgb& light : radiosity.ambient()) sum += static_cast<double>(light.g);
+    return sum / static_cast<double>(radiosity.ambient().size());
+  }
+};
+
+Scene room() {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "grey", Rgb(0.5f)), Vec3(0), Vec3(1), true);
+  return scene;
+}
+Scene ball() {
+  Scene scene;
+  add_sphere(scene, "shell", add_material(scene, "grey", Rgb(0.5f)), Vec3(0), 1, 8, true);
+  return scene;
+}
+
+// 33. In a furnace what comes back is emission / (1 - rho): less than a surface shows by its own emission,
+// (rho emission) / (1 - rho) once it is multiplied by rho.
+TEST(RealtimeRadiosity, Furnace) {
+  const Rgb rho(0.9f, 0.7f, 0.1f), emission(0.2f, 0.3f, 0.4f);
+  Rig rig(room(), {{{emission, Rgb(), rho}}}, {});
+  EXPECT_EQ(rig.radiosity.uncovered(), 0u);
+  ASSERT_TRUE(rig.radiosity.update());
+  ASSERT_EQ(rig.radiosity.ambient().size(), rig.world.positions.size());
+  for (const Rgb& light : rig.radiosity.ambient()) {
+    EXPECT_NEAR(light.r, 0.2f / 0.1f, 0.02f * 2);
+    EXPECT_NEAR(light.g, 0.3f / 0.3f, 0.02f * 1);
+    EXPECT_NEAR(light.b, 0.4f / 0.9f, 0.02f * 0.44f);
+  }
+}
+
+// 2. A lamp in the middle of a ball: B = rho E / (1 - rho) is the same everywhere, whatever the renderer
+// calls 1.
+TEST(RealtimeRadiosity, LampInABall) {
+  Rig rig(ball(), {{{Rgb(), Rgb(), Rgb(0.7f)}}}, {{Vec3(0), Rgb(2)}});
+  for (const float unit : {0.3183f, 1.0f, 2.5f}) {
+    rig.host.unit = unit;
+    ASSERT_TRUE(rig.radiosity.update());
+    EXPECT_NEAR(rig.mean(), static_cast<double>(2 * unit) * 0.7 / 0.3,
+                0.03 * static_cast<double>(unit) * 4.7);
+  }
+}
+
+// A jump of the light: the first frame has all of it, and a frame without light none.
+TEST(RealtimeRadiosity, AnswersAtOnce) {
+  Rig rig(ball(), {{{Rgb(), Rgb(), Rgb(0.7f)}}}, {});
+  ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_EQ(rig.mean(), 0);
+  rig.host.lamps = {{Vec3(0.3f, 0, 0.2f), Rgb(1)}};
+  ASSERT_TRUE(rig.radiosity.update());
+  const double first = rig.mean();
+  for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_EQ(rig.mean(), first);
+  EXPECT_GT(first, 0.97 * 0.7 * 0.7 / 0.3);  // E averages I x 4 pi / (4 pi), from any place in the ball
+  rig.host.lamps.clear();
+  ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_EQ(rig.mean(), 0);
+}
+
+// 33. Another light model changes what is captured, and with that the answer; nothing is made again.
+TEST(RealtimeRadiosity, FollowsTheRenderersShaders) {
+  Rig rig(ball(), {{{Rgb(), Rgb(), Rgb(0.5f)}}}, {{Vec3(0), Rgb(1)}});
+  ASSERT_TRUE(rig.radiosity.update());
+  const double before = rig.mean();
+  rig.host.unit *= 3;
+  ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_NEAR(rig.mean() / before, 3, 1e-4);
+  rig.host.lamps[0].position = Vec3(0, 0.5f, 0);
+  ASSERT_TRUE(rig.radiosity.update());
+  const double near = rig.mean();
+  rig.host.attenuation = false;
+  ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_LT(rig.mean(), 0.99 * near);
+}
+
+// Darker paint, found by looking again.
+TEST(RealtimeRadiosity, MaterialsMayChange) {
+  Rig rig(ball(), {{{Rgb(), Rgb(), Rgb(0.7f)}}}, {{Vec3(0), Rgb(1)}});
+  rig.host.materials[0].response.reflectance = Rgb(0.3f);
+  rig.radiosity.set_materials(detect_materials(rig.scene, rig.world, rig.host.renderer()));
+  ASSERT_TRUE(rig.radiosity.update());
+  EXPECT_NEAR(rig.mean(), 0.7 * 0.3 / 0.7, 0.01);
+}
+
+TEST(RealtimeRadiosity, LightmapTexels) {
+  const Scene scene = room();
+  const World world = make_world(scene);
+  const Tracer tracer(scene, world);
+  const TracedScene traced{scene, world, tracer};
+  AtlasParams size;
+  size.page_size = 64;
+  const Atlas atlas = make_atlas(scene, world, tracer, size);
+  const Rgb rho(0.6f), emission(0.5f);
+  SyntheticHost host{world, {{{emission, Rgb(), rho}}}};
+  const Detection detection = detect_materials(scene, world, host.renderer());
+  RealtimeRadiosity radiosity(traced, texel_receivers(traced, atlas), atlas_space(atlas), host.renderer(),
+                              quick());
+  radiosity.set_materials(detection);
+  ASSERT_TRUE(radiosity.update());
+  EXPECT_EQ(radiosity.uncovered(), 0u);
+  ASSERT_EQ(radiosity.ambient().size(), 64u * 64u);
+  std::size_t lit = 0;
+  for (const Rgb& light : radiosity.ambient())
+    if (light.g > 0) {
+      ++lit;
+      EXPECT_NEAR(light.g, 0.5f / 0.4f, 0.025f);
+    }
+  EXPECT_GT(lit, radiosity.transfer().gather.rows) << "texels around receivers";
+}
+
+TEST(RealtimeRadiosity, GoesOnWithoutABadRenderer) {
+  Rig rig(ball(), {{{Rgb(), Rgb(), Rgb(0.7f)}}}, {{Vec3(0), Rgb(1)}});
+  ASSERT_TRUE(rig.radiosity.update());
+  rig.host.lamps[0].intensity = Rgb(NAN);
+  const FrameReport report = rig.radiosity.update();
+  EXPECT_NE(report.fault.find("the renderer's drawing of direct light: has the value nan"),
+            std::string::npos);
+  EXPECT_EQ(rig.mean(), 0);
+  rig.host.lamps[0].intensity = Rgb(1);
+  EXPECT_TRUE(rig.radiosity.update());
+  EXPECT_GT(rig.mean(), 1);
+  rig.host.format = TargetFormat::srgb8;
+  EXPECT_NE(rig.radiosity.update().fault.find("floats (allowed:"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sconce
