@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glue.h"
+
+#include <osg/Program>
+#include <osg/Shader>
+#include <osg/TriangleIndexFunctor>
+#include <set>
+
+#include "core/error.h"
+#include "shader/vertex_override.h"
+
+using namespace sconce;
+
+namespace {
+
+constexpr unsigned kPlace = 7;              // vertex attribute that compatibility profiles leave free
+constexpr unsigned kScene = 1, kFaces = 2;  // node masks: what the screen shows, what textures show
+
+struct Triples {
+  std::vector<unsigned> indices;
+  void operator()(unsigned a, unsigned b, unsigned c) { indices.insert(indices.end(), {a, b, c}); }
+};
+
+/// A vertex for each index. Null where the array is of another type.
+template <class Array>
+osg::ref_ptr<osg::Array> expanded(const osg::Array* from, const std::vector<unsigned>& indices) {
+  const auto* values = dynamic_cast<const Array*>(from);
+  if (values == nullptr) return nullptr;
+  osg::ref_ptr<Array> out = new Array(osg::Array::BIND_PER_VERTEX);
+  for (const unsigned i : indices) out->push_back((*values)[i]);
+  return out;
+}
+
+osg::ref_ptr<osg::Array> expanded_any(osg::Array* from, const std::vector<unsigned>& indices) {
+  if (from == nullptr || from->getBinding() != osg::Array::BIND_PER_VERTEX) return from;
+  for (const auto make : {expanded<osg::Vec2Array>, expanded<osg::Vec3Array>, expanded<osg::Vec4Array>,
+                          expanded<osg::Vec4ubArray>})
+    if (auto out = make(from, indices)) return out;
+  throw Error("geometry", std::string("has vertex data of type ") + from->className(),
+              "Vec2Array, Vec3Array, Vec4Array, Vec4ubArray");
+}
+
+}  // namespace
+
+/// Takes the graph in: shaders are rewritten, geometries become a Scene.
+class OsgRadiosity::Collector : public osg::NodeVisitor {
+ public:
+  explicit Collector(OsgRadiosity& out) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), out_(out) {}
+  bool found_shader() const { return !shaders_.empty(); }
+
+  void apply(osg::Node& node) override {
+    rewrite(node.getStateSet());
+    traverse(node);
+  }
+  void apply(osg::Geometry& geometry) override {
+    rewrite(geometry.getStateSet());
+    if (!geometries_.insert(&geometry).second)
+      throw Error(geometry.getName(), "is in the graph twice",
+                  "a geometry for each place: a lightmap has one for each");
+    const auto* positions = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
+    const auto* normals = dynamic_cast<const osg::Vec3Array*>(geometry.getNormalArray());
+    if (positions == nullptr || normals == nullptr || normals->empty())
+      throw Error(geometry.getName(), "has no Vec3Array of vertices and of normals");
+    const osg::Matrix world = osg::computeLocalToWorld(getNodePath());
+    const osg::Matrix turned = osg::Matrix::inverse(world);
+    Mesh mesh;
+    mesh.material = material();
+    for (std::size_t v = 0; v < positions->size(); ++v) {
+      const osg::Vec3 p = (*positions)[v] * world;
+      mesh.positions.emplace_back(p.x(), p.y(), p.z());
+      const osg::Vec3 n = osg::Matrix::transform3x3(turned, (*normals)[std::min(v, normals->size() - 1)]);
+      mesh.normals.push_back(glm::normalize(Vec3(n.x(), n.y(), n.z())));
+    }
+    osg::TriangleIndexFunctor<Triples> triples;
+    geometry.accept(triples);
+    const std::vector<unsigned>& indices = triples.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+      mesh.triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]}});
+    Instance instance;
+    instance.name = geometry.getName();
+    instance.mesh = Id<Mesh>(out_.scene_.meshes.size());
+    out_.scene_.meshes.push_back(std::move(mesh));
+    out_.scene_.instances.push_back(instance);
+    expand(geometry, indices);
+  }
+
+ private:
+  void rewrite(osg::StateSet* state) {
+    auto* program = state == nullptr
+                        ? nullptr
+                        : dynamic_cast<osg::Program*>(state->getAttribute(osg::StateAttribute::PROGRAM));
+    if (program == nullptr || !programs_.insert(program).second) return;
+    program->addBindAttribLocation("sconce_place", kPlace);
+    for (unsigned i = 0; i < program->getNumShaders(); ++i)
+      if (osg::Shader* shader = program->getShader(i);
+          shader->getType() == osg::Shader::VERTEX && shaders_.insert(shader).second)
+        shader->setShaderSource(override_vertex_position(shader->getShaderSource(), shader->getName()));
+  }
+
+  /// Geometries under the same state are of one material.
+  Id<Material> material() {
+    const osg::StateSet* state = nullptr;
+    for (const osg::Node* node : getNodePath())
+      if (node->getStateSet() != nullptr) state = node->getStateSet();
+    const auto [it, added] = materials_.try_emplace(state, out_.scene_.materials.size());
+    if (added) {
+      Material material;
+      material.name = state != nullptr && !state->getName().empty() ? state->getName()
+                                                                    : "state " + std::to_string(it->second);
+      out_.scene_.materials.push_back(material);
+    }
+    return Id<Material>(it->second);
+  }
+
+  void expand(osg::Geometry& g, const std::vector<unsigned>& indices) {
+    g.setVertexArray(expanded_any(g.getVertexArray(), indices));
+    g.setNormalArray(expanded_any(g.getNormalArray(), indices));
+    g.setColorArray(expanded_any(g.getColorArray(), indices));
+    for (unsigned i = 0; i < g.getNumTexCoordArrays(); ++i)
+      g.setTexCoordArray(i, expanded_any(g.getTexCoordArray(i), indices));
+    for (unsigned i = 0; i < g.getNumVertexAttribArrays(); ++i)
+      g.setVertexAttribArray(i, expanded_any(g.getVertexAttribArray(i), indices));
+    g.removePrimitiveSet(0, g.getNumPrimitiveSets());
+    g.addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(indices.size())));
+    Part part;
+    part.places = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned>(indices.size()));
+    part.lightmap = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned>(indices.size()));
+    g.setVertexAttribArray(kPlace, part.places);
+    g.setTexCoordArray(1, part.lightmap);
+    g.setUseDisplayList(false);
+    g.setUseVertexBufferObjects(true);
+    out_.parts_.push_back(part);
+  }
+
+  OsgRadiosity& out_;
+  std::set<const osg::Geometry*> geometries_;
+  std::set<const osg::Program*> programs_;
+  std::set<const osg::Shader*> shaders_;
+  std::map<const osg::StateSet*, std::size_t> materials_;
+};
+
+OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Node& scene,
+                           SetLights set_lights)
+    : viewer_(viewer), root_(root), scene_node_(scene), set_lights_(std::move(set_lights)) {
+  Collector collector(*this);
+  scene.accept(collector);
+  if (!collector.found_shader()) throw Error("scene", "has no GLSL vertex shader of its own at or below it");
+  scene.setNodeMask(kScene);
+  viewer.getCamera()->setCullMask(kScene);
+  viewer.getCamera()->getOrCreateStateSet()->addUniform(new osg::Uniform("sconce_in_faces", 0.0f));
+  world_ = make_world(scene_);
+  tracer_ = std::make_unique<Tracer>(scene_, world_);
+  host_.draw = [this](const DrawRequest& request) { return draw(request); };
+
+  AtlasParams size;
+  size.density = 12;
+  const TracedScene traced{scene_, world_, *tracer_};
+  const Atlas atlas = make_atlas(scene_, world_, *tracer_, size);
+  TextureSpace space = atlas_space(atlas);
+  const Vec2 whole(static_cast<float>(space.width), static_cast<float>(space.height));
+  for (std::size_t i = 0; i < space.triangles.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const uint32_t t = space.triangles[i];
+      const Vec2 uv = space.corners[i][c] / whole;
+      (*parts_[world_.instances[t].value].lightmap)[3 * world_.source_triangles[t] + c].set(uv.x, uv.y);
+    }
+  for (Part& part : parts_) part.lightmap->dirty();
+
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(space.width, space.height, 1, GL_RGB, GL_FLOAT);
+  image->setInternalTextureFormat(GL_RGB32F_ARB);
+  std::fill_n(reinterpret_cast<float*>(image->data()), 3 * space.pixels(), 0.0f);
+  ambient_map_->setImage(image);
+  ambient_map_->setResizeNonPowerOfTwoHint(false);
+  ambient_map_->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+  ambient_map_->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+
+  TransferParams params;
+  params.gather = 4096, params.keep_sums = true;
+  radiosity_ = std::make_unique<RealtimeRadiosity>(traced, texel_receivers(traced, atlas), std::move(space),
+                                                   host_, params);
+  detect();
+}
+
+void OsgRadiosity::detect() {
+  detection_ = detect_materials(scene_, world_, host_);
+  radiosity_->set_materials(detection_);
+}
+
+FrameReport OsgRadiosity::update() {
+  FrameReport report = radiosity_->update();
+  const std::span<const Rgb> ambient = radiosity_->ambient();
+  std::copy_n(&ambient[0].r, 3 * ambient.size(), reinterpret_cast<float*>(ambient_map_->getImage()->data()));
+  ambient_map_->getImage()->dirty();
+  return report;
+}
+
+/// A camera that draws the scene into a float texture of that size.
+const OsgRadiosity::Target& OsgRadiosity::target(int width, int height) {
+  Target& t = targets_[{width, height}];
+  if (t.camera) return t;
+  t.image = new osg::Image;
+  t.image->allocateImage(width, height, 1, GL_RGBA, GL_FLOAT);
+  t.image->setInternalTextureFormat(GL_RGBA32F_ARB);
+  t.camera = new osg::Camera;
+  t.camera->setRenderOrder(osg::Camera::PRE_RENDER);
+  t.camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  t.camera->attach(osg::Camera::COLOR_BUFFER, t.image);
+  t.camera->setViewport(0, 0, width, height);
+  t.camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  t.camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  t.camera->setCullingMode(osg::CullSettings::NO_CULLING);
+  t.camera->setInheritanceMask(t.camera->getInheritanceMask() &
+                               ~static_cast<unsigned>(osg::CullSettings::CULL_MASK));
+  t.camera->setCullMask(kScene);
+  t.camera->setNodeMask(kFaces);
+  const auto off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+  osg::StateSet* state = t.camera->getOrCreateStateSet();
+  state->setMode(GL_CULL_FACE, off);
+  state->setMode(GL_DEPTH_TEST, off);
+  state->addUniform(new osg::Uniform("sconce_in_faces", 1.0f));
+  t.camera->addChild(&scene_node_);
+  return t;
+}
+
+Drawing OsgRadiosity::draw(const DrawRequest& request) {
+  const osg::Vec2 nowhere(2, 2);
+  for (Part& part : parts_) std::fill(part.places->begin(), part.places->end(), nowhere);
+  for (std::size_t i = 0; i < request.triangles.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const uint32_t t = request.triangles[i];
+      const Vec2& corner = request.corners[i][c];
+      (*parts_[world_.instances[t].value].places)[3 * world_.source_triangles[t] + c].set(
+          corner.x / static_cast<float>(request.width), corner.y / static_cast<float>(request.height));
+    }
+  for (Part& part : parts_) part.places->dirty();
+
+  const Target& t = target(request.width, request.height);
+  const float grey = request.background;
+  t.camera->setClearColor(osg::Vec4(grey, grey, grey, 1));
+  t.camera->setViewMatrix(viewer_.getCamera()->getViewMatrix());
+  t.camera->setProjectionMatrix(viewer_.getCamera()->getProjectionMatrix());
+  set_lights_(request);
+  root_.addChild(t.camera);
+  viewer_.getCamera()->setCullMask(kFaces);  // not the screen this time
+  viewer_.frame();
+  viewer_.getCamera()->setCullMask(kScene);
+  root_.removeChild(t.camera);
+
+  Drawing drawing;
+  drawing.width = t.image->s(), drawing.height = t.image->t();
+  const auto* rgba = reinterpret_cast<const float*>(t.image->data());
+  const auto pixels = static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
+  drawing.values.reserve(3 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    drawing.values.insert(drawing.values.end(), rgba + 4 * i, rgba + 4 * i + 3);
+  return drawing;
+}
