@@ -37,7 +37,7 @@ vec3 lit(vec3 to, vec3 strength, vec3 rho, vec3 n) {
 void main() {
   vec3 n = normalize(normal), rho = mix(color, vec3(1.0), white_card), to = lamp - at;
   float distance2 = dot(to, to);
-  vec3 shown = lit(to / sqrt(distance2), lamp_strength / mix(1.0, distance2, falloff), rho, n) +
+  vec3 shown = lit(to / sqrt(distance2), lamp_strength / mix(1.0, 0.25 * distance2, falloff), rho, n) +
                lit(sun, sun_strength, rho, n) + emission * (1.0 - white_card);
   shown += rho * ambient_on * texture2D(ambient_map, gl_TexCoord[1].xy).rgb;
   gl_FragColor = vec4(shown, 1.0);
@@ -51,7 +51,6 @@ osg::Vec3 vec(const room::Triple& t) {
 class Program {
  public:
   Program(int argc, char** argv) : file_(argv[1]) {
-    lamp_.falloff = 1;
     shine_ = argc > 2 && std::string(argv[2]) == "--shiny" ? 0.3f : 0.0f;
     build();
     osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
@@ -93,7 +92,7 @@ class Program {
     picture("with", true);
     picture("direct", false);
     // The program changes its light model while it runs. Nothing is made again.
-    lamp_.falloff = 0;
+    lamp_.falloff = 1;
     report(radiosity.update());
     picture("changed", true);
     picture("changed-direct", false);

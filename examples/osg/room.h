@@ -51,11 +51,11 @@ inline constexpr Triple kEye{2.5f, 1.5f, 3.9f}, kTarget{2.5f, 1.2f, 0};
 inline constexpr float kFieldOfView = 70;  ///< vertical, degrees
 inline constexpr int kWidth = 320, kHeight = 240;
 
-/// The renderer's light model: strength x cosine, divided by the square of the distance where `falloff` is 1
-/// and by nothing where it is 0; no shadows.
+/// The renderer's light model: strength x cosine, divided by the square of the distance over 2 m where
+/// `falloff` is 1 and by nothing where it is 0; no shadows.
 struct Lamp {
-  Triple position{3.8f, 2.2f, 2.2f}, strength{2.4f, 2.2f, 1.9f};
-  float falloff = 1;
+  Triple position{3.8f, 2.2f, 2.2f}, strength{0.5f, 0.46f, 0.4f};
+  float falloff = 0;
 };
 
 }  // namespace room
