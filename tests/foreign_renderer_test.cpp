@@ -132,7 +132,7 @@ TEST(OpenSceneGraph, BouncesAreThoseOfPaths) {
   room::Lamp lamp;
   for (const std::string change : {"", "changed-"}) {
     const Difference d = difference(out + "-" + (change.empty() ? "with" : "changed") + ".exr",
-                                    out + "-" + change + "direct.exr", Paths(lamp).indirect(512));
+                                    out + "-" + change + "direct.exr", Paths(lamp).indirect(256));
     RecordProperty(change + "rmse", std::to_string(d.relative_rmse));
     RecordProperty(change + "mean", std::to_string(d.mean_ratio));
     EXPECT_LT(d.relative_rmse, 0.10);

@@ -55,8 +55,7 @@ class OsgRadiosity::Collector : public osg::NodeVisitor {
   void apply(osg::Geometry& geometry) override {
     rewrite(geometry.getStateSet());
     if (!geometries_.insert(&geometry).second)
-      throw Error(geometry.getName(), "is in the graph twice",
-                  "a geometry for each place: a lightmap has one for each");
+      throw Error(geometry.getName(), "is in the graph twice", "a geometry for each place");
     const auto* positions = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(geometry.getNormalArray());
     if (positions == nullptr || normals == nullptr || normals->empty())
@@ -77,7 +76,6 @@ class OsgRadiosity::Collector : public osg::NodeVisitor {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
       mesh.triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]}});
     Instance instance;
-    instance.name = geometry.getName();
     instance.mesh = Id<Mesh>(out_.scene_.meshes.size());
     out_.scene_.meshes.push_back(std::move(mesh));
     out_.scene_.instances.push_back(instance);
@@ -169,20 +167,15 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(space.width, space.height, 1, GL_RGB, GL_FLOAT);
   image->setInternalTextureFormat(GL_RGB32F_ARB);
-  std::fill_n(reinterpret_cast<float*>(image->data()), 3 * space.pixels(), 0.0f);
   ambient_map_->setImage(image);
   ambient_map_->setResizeNonPowerOfTwoHint(false);
-  ambient_map_->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
-  ambient_map_->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+    ambient_map_->setFilter(filter, osg::Texture::LINEAR);
 
   TransferParams params;
-  params.gather = 4096, params.keep_sums = true;
+  params.gather = 4096, params.rays = 256, params.lights = 128, params.keep_sums = true;
   radiosity_ = std::make_unique<RealtimeRadiosity>(traced, texel_receivers(traced, atlas), std::move(space),
                                                    host_, params);
-  detect();
-}
-
-void OsgRadiosity::detect() {
   detection_ = detect_materials(scene_, world_, host_);
   radiosity_->set_materials(detection_);
 }
@@ -208,10 +201,7 @@ const OsgRadiosity::Target& OsgRadiosity::target(int width, int height) {
   t.camera->attach(osg::Camera::COLOR_BUFFER, t.image);
   t.camera->setViewport(0, 0, width, height);
   t.camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-  t.camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   t.camera->setCullingMode(osg::CullSettings::NO_CULLING);
-  t.camera->setInheritanceMask(t.camera->getInheritanceMask() &
-                               ~static_cast<unsigned>(osg::CullSettings::CULL_MASK));
   t.camera->setCullMask(kScene);
   t.camera->setNodeMask(kFaces);
   const auto off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
@@ -224,8 +214,7 @@ const OsgRadiosity::Target& OsgRadiosity::target(int width, int height) {
 }
 
 Drawing OsgRadiosity::draw(const DrawRequest& request) {
-  const osg::Vec2 nowhere(2, 2);
-  for (Part& part : parts_) std::fill(part.places->begin(), part.places->end(), nowhere);
+  for (Part& part : parts_) std::fill(part.places->begin(), part.places->end(), osg::Vec2(2, 2));  // nowhere
   for (std::size_t i = 0; i < request.triangles.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const uint32_t t = request.triangles[i];
@@ -234,10 +223,8 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
           corner.x / static_cast<float>(request.width), corner.y / static_cast<float>(request.height));
     }
   for (Part& part : parts_) part.places->dirty();
-
   const Target& t = target(request.width, request.height);
-  const float grey = request.background;
-  t.camera->setClearColor(osg::Vec4(grey, grey, grey, 1));
+  t.camera->setClearColor(osg::Vec4(1, 1, 1, 1) * request.background);
   t.camera->setViewMatrix(viewer_.getCamera()->getViewMatrix());
   t.camera->setProjectionMatrix(viewer_.getCamera()->getProjectionMatrix());
   set_lights_(request);
@@ -246,7 +233,6 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
   viewer_.frame();
   viewer_.getCamera()->setCullMask(kScene);
   root_.removeChild(t.camera);
-
   Drawing drawing;
   drawing.width = t.image->s(), drawing.height = t.image->t();
   const auto* rgba = reinterpret_cast<const float*>(t.image->data());

@@ -22,10 +22,7 @@ class OsgRadiosity {
 
   /// Reads the direct light and brings the ambient map up to date.
   sconce::FrameReport update();
-  /// After materials changed. @throws sconce::Error
-  void detect();
   const sconce::Detection& detection() const { return detection_; }
-  const sconce::RealtimeRadiosity& radiosity() const { return *radiosity_; }
   osg::Texture2D* ambient_map() { return ambient_map_; }
 
  private:
