@@ -52,8 +52,7 @@ void row(double triangles, const TransferParams& params) {
   for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
   RealtimeRadiosity radiosity(traced, vertex_receivers(traced),
                               face_cells(all, texels_by_area(world, all, 0.1f, 128)), host.renderer(),
-                              params);
-  radiosity.set_materials(detection);
+                              detection, params);
   const double wall = since(start), seconds = cpu() - before;
   double least = 1e30, used = 0;
   constexpr int kFrames = 20;

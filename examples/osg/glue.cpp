@@ -174,10 +174,9 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
 
   TransferParams params;
   params.gather = 4096, params.rays = 256, params.lights = 128, params.keep_sums = true;
-  radiosity_ = std::make_unique<RealtimeRadiosity>(traced, texel_receivers(traced, atlas), std::move(space),
-                                                   host_, params);
   detection_ = detect_materials(scene_, world_, host_);
-  radiosity_->set_materials(detection_);
+  radiosity_ = std::make_unique<RealtimeRadiosity>(traced, texel_receivers(traced, atlas), std::move(space),
+                                                   host_, detection_, params);
 }
 
 FrameReport OsgRadiosity::update() {

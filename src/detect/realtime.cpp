@@ -18,21 +18,33 @@ Vec3 position_of(const OperatorPoint& p) {
   return {p.position[0], p.position[1], p.position[2]};
 }
 
+TransferParams with_transmission(TransferParams params, const Detection& detection) {
+  bool any = false;
+  for (const DetectedMaterial& m : detection.materials) {
+    const Rgb& t = m.response.transmission;
+    params.transmission.push_back((t.r + t.g + t.b) / 3);
+    any = any || params.transmission.back() > 0.01f;  // below it is rounding
+  }
+  if (!any) params.transmission.clear();
+  return params;
+}
+
 }  // namespace
 
 RealtimeRadiosity::RealtimeRadiosity(const TracedScene& traced, const RelightReceivers& receivers,
-                                     TextureSpace direct, HostRenderer host, const TransferParams& params,
-                                     const Progress& progress)
+                                     TextureSpace direct, HostRenderer host, const Detection& detection,
+                                     TransferParams params, const Progress& progress)
     : world_(traced.world),
       direct_(std::move(direct)),
       host_(std::move(host)),
-      op_(make_operator(traced, receivers, params, {}, {progress, nullptr})),
-      bounces_(std::make_unique<FoldedBounces>(op_)),
+      op_(make_operator(traced, receivers, with_transmission(std::move(params), detection), {},
+                        {progress, nullptr})),
       indirect_(op_.gather.rows),
       ambient_(static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height) *
                static_cast<std::size_t>(op_.pages)) {
   find_faces(traced);
   if (op_.kind == OperatorReceivers::texels) find_copies();
+  set_materials(detection);
 }
 
 // The operator knows its points by place alone; a ray from just above finds the face again.

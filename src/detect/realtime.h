@@ -25,11 +25,14 @@ struct FrameReport {
 /// emission + reflectance x (its own direct light + ambient).
 class RealtimeRadiosity {
  public:
-  /// Follows rays, once. @param traced  must outlive it, as what the receivers refer to
+  /// Follows rays, once; those that meet what lets light through go on behind it.
+  /// @param traced     must outlive it, as what the receivers refer to
+  /// @param detection  its transmissions are taken by material, and stay; a share without colour
   /// @param direct   where faces are drawn to see their light; the faces of all that sends light on
   /// @throws UsageError, Cancelled, as make_operator()
   RealtimeRadiosity(const TracedScene& traced, const RelightReceivers& receivers, TextureSpace direct,
-                    HostRenderer host, const TransferParams& params = {}, const Progress& progress = {});
+                    HostRenderer host, const Detection& detection, TransferParams params = {},
+                    const Progress& progress = {});
 
   /// Reflectances by face or by material. Without rays: after a change of the renderer's materials, too.
   void set_materials(const Detection& detection);

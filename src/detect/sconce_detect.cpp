@@ -85,7 +85,7 @@ struct sconce_gi {
         host{[this, draw, user](const DrawRequest& r) { return call(draw, user, r); },
              static_cast<TargetFormat>(p.target)} {
     detect_params.per = p.by_face != 0 ? DetectParams::Per::face : DetectParams::Per::material;
-    Detection found = detect_materials(geometry.scene, world, host, detect_params);
+    detection = detect_materials(geometry.scene, world, host, detect_params);
     TransferParams params;
     params.gather = p.samples > 0 ? static_cast<std::size_t>(p.samples) : 16384;
     if (p.rays > 0) params.rays = p.rays;
@@ -96,16 +96,11 @@ struct sconce_gi {
     const TracedScene traced{geometry.scene, world, tracer};
     radiosity = std::make_unique<RealtimeRadiosity>(traced, vertex_receivers(traced),
                                                     face_cells(all, texels_by_area(world, all, texel, 256)),
-                                                    host, params);
-    set(std::move(found));
+                                                    host, detection, params);
   }
   sconce_gi(const sconce_gi&) = delete;
   sconce_gi& operator=(const sconce_gi&) = delete;
 
-  void set(Detection found) {
-    radiosity->set_materials(found);
-    detection = std::move(found);
-  }
   Drawing call(sconce_draw draw, void* user, const DrawRequest& r) const {
     std::vector<uint32_t> faces;
     std::vector<float> corners;
@@ -181,7 +176,8 @@ void sconce_gi_material(const sconce_gi* gi, size_t material, sconce_material* o
 
 int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size) {
   try {
-    gi->set(detect_materials(gi->geometry.scene, gi->world, gi->host, gi->detect_params));
+    gi->detection = detect_materials(gi->geometry.scene, gi->world, gi->host, gi->detect_params);
+    gi->radiosity->set_materials(gi->detection);
     return 0;
   } catch (const std::exception& e) {
     tell(e.what(), message, message_size);

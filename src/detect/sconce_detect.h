@@ -75,7 +75,8 @@ void sconce_gi_destroy(sconce_gi* gi);
 
 size_t sconce_gi_material_count(const sconce_gi* gi);
 void sconce_gi_material(const sconce_gi* gi, size_t material, sconce_material* out);
-/* After the renderer's materials changed. Returns 0, or 1 and writes to `message`: then the old ones stay. */
+/* After the renderer's materials changed; what light goes through stays as it was. Returns 0, or 1 and writes
+ * to `message`: then the old ones stay. */
 int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size);
 
 /* Draws the direct light and solves. `ambient`: 3 per vertex, linear, to be multiplied by the surface's

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests and benchmarks: a renderer on the processor whose materials are known, with its own idea of what 1 is.
+// For tests and benchmarks: a renderer on the processor whose materials are known, with its own idea of what
+// 1 is.
 #pragma once
 
 #include <stdexcept>

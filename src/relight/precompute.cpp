@@ -38,15 +38,28 @@ void check(const TransferParams& p) {
 /// Hits of one receiver's rays as a sparse row.
 class RowMaker {
  public:
-  RowMaker(const TracedScene& traced, const GatherCloud& cloud, const CloudSquare& square)
-      : traced_(traced), cloud_(cloud), square_(square) {}
+  /// @param transmission  per Scene material, or empty
+  RowMaker(const TracedScene& traced, const GatherCloud& cloud, const CloudSquare& square,
+           std::span<const float> transmission)
+      : traced_(traced), cloud_(cloud), square_(square), transmission_(transmission) {}
 
   void start() { met_.clear(); }
-  /// Sends ray r of the row.
+  /// Sends ray r of the row, and through what lets it through.
   void shoot(const SurfacePoint& from, uint32_t r, uint32_t stream) {
-    const auto sample = follow_row_ray(traced_.world, traced_.tracer, cloud_, from, r, stream,
-                                       [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
-    if (sample) met_.push_back(*sample);
+    constexpr uint32_t kMostPanes = 8, kPanePair = 32;  // pairs that no step of a ray uses
+    auto ray = row_ray(from, r, 0, stream);
+    for (uint32_t pane = 0; ray && pane <= kMostPanes; ++pane) {
+      const Hit hit = traced_.tracer.closest(*ray);
+      const auto sample = follow_row_hit(traced_.world, traced_.tracer, cloud_, hit, r, stream,
+                                         [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
+      if (sample) met_.push_back(*sample);
+      if (!hit || transmission_.empty() ||
+          !(sobol_pair(r, kPanePair + pane, stream).x <
+            transmission_[traced_.world.materials[hit.triangle].value]))
+        return;
+      const SurfacePoint at = surface_point(traced_.world, hit);
+      ray->origin = offset_origin(at.position, at.geometric_normal, ray->direction);
+    }
   }
   void finish(uint32_t rays, std::vector<SparseEntry>& row) {
     std::sort(met_.begin(), met_.end());
@@ -68,6 +81,7 @@ class RowMaker {
   const TracedScene& traced_;
   const GatherCloud& cloud_;
   const CloudSquare& square_;
+  std::span<const float> transmission_;
   std::vector<uint32_t> met_;
 };
 
@@ -107,7 +121,7 @@ void make_bounces(const TracedScene& traced, const TransferParams& params, const
   op.albedo = *albedo;
   op.owners.push_back(albedo);
 
-  const RowMaker maker(traced, *start.cloud, start.square);
+  const RowMaker maker(traced, *start.cloud, start.square, params.transmission);
   const auto slot_row = [&](std::size_t slot, RowMaker& rows, std::vector<SparseEntry>& row) {
     constexpr uint32_t kRays = 32;
     const uint32_t stream = mix32(mix32(params.seed, kBounceStream), static_cast<uint32_t>(slot)),
@@ -150,7 +164,7 @@ void make_bounces(const TracedScene& traced, const TransferParams& params, const
 void make_gather(const TracedScene& traced, const RelightReceivers& receivers, const TransferParams& params,
                  const OperatorStart& start, const TrainingLight& light, const TransferWork& work,
                  Operator& op) {
-  const RowMaker maker(traced, *start.cloud, start.square);
+  const RowMaker maker(traced, *start.cloud, start.square, params.transmission);
   const auto rays = static_cast<uint32_t>(params.rays);
   const auto row = [&](std::size_t i, RowMaker& rows, std::vector<SparseEntry>& out) {
     const uint32_t own = start.order[i];
@@ -185,6 +199,9 @@ void make_gather(const TracedScene& traced, const RelightReceivers& receivers, c
 Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
                        const TransferParams& params, const std::string& scene, const TransferWork& work) {
   check(params);
+  if (!params.transmission.empty() && params.transmission.size() != traced.scene.materials.size())
+    throw UsageError("transmission", std::to_string(params.transmission.size()) + " values",
+                     "one for each material: " + std::to_string(traced.scene.materials.size()));
   OperatorStart start(traced, receivers, params, static_cast<std::size_t>(params.cluster), work.progress);
   Operator op = std::move(start.op);
   op.scene = scene;
