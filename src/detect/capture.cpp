@@ -85,4 +85,19 @@ Captured capture(const HostRenderer& host, const TextureSpace& space, DrawReques
   return out;
 }
 
+Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped) {
+  std::array<double, 3> sum{};
+  double count = 0;
+  each_pixel(space, face, [&](std::size_t pixel) {
+    const Rgb& light = captured.light[pixel];
+    sum[0] += static_cast<double>(light.r), sum[1] += static_cast<double>(light.g);
+    sum[2] += static_cast<double>(light.b);
+    clipped = clipped || captured.is_clipped(pixel);
+    ++count;
+  });
+  const double scale = 1 / std::max(count, 1.0);
+  return Rgb(static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+             static_cast<float>(sum[2] * scale));
+}
+
 }  // namespace sconce

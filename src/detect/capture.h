@@ -36,6 +36,9 @@ struct Captured {
 Captured capture(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
                  const std::string& what);
 
+/// Mean light of a face's pixels. @param clipped  set where a channel of any of them is
+Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped);
+
 /// Linear value of an 8-bit code.
 float decode_code(TargetFormat format, uint8_t code);
 /// Half the largest step between codes: what rounding can cost, linear. 0 for floats.

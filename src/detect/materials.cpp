@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "core/error.h"
 #include "detect/lambertian.h"
+#include "detect/placement.h"
+#include "detect/slope.h"
 
 namespace sconce {
 
@@ -14,9 +14,10 @@ namespace {
 
 using Lights = DrawRequest::Lights;
 
-constexpr float kDrawn = 0.999f;   // transmission from which a face counts as not drawn
-constexpr float kAnswers = 1e-3f;  // of a white card under a light of 1: less is no answer
-constexpr float kCleared = 0.25f;  // how far the mean of pixels outside may be from the background
+constexpr float kDrawn = 0.999f;     // transmission from which a face counts as not drawn
+constexpr float kAnswers = 1e-3f;    // of a white card under a light of 1: less is no answer
+constexpr float kPlacement = 0.05f;  // share of light that may depend on a face's place
+constexpr float kCleared = 0.25f;    // how far the mean of pixels outside may be from the background
 
 /// Largest first, the first few of each material; all of them by face.
 std::vector<uint32_t> choose_faces(const Scene& scene, const World& world, const DetectParams& params) {
@@ -56,36 +57,6 @@ void check_cleared(const TextureSpace& space, const Captured& captured, float ba
                 fmt::format("the background that was asked for, {}", background));
 }
 
-/// A line through what a face (y) and a white card in its place (x) do at several intensities, without light
-/// to begin with: its slope is the reflectance. Codes round emission too, and so it is no fixed point.
-class Slope {
- public:
-  void add(const Rgb& x, const Rgb& y) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto u = static_cast<double>(channel(x, c)), v = static_cast<double>(channel(y, c));
-      Sums& s = sums_[c];
-      s.x += u, s.y += v, s.xx += u * u, s.xy += u * v;
-    }
-    ++count_;
-    most_ = std::max(most_, std::min({x.r, x.g, x.b}));
-  }
-  /// The brightest card's darkest channel.
-  float most() const { return most_; }
-  Rgb value() const { return Rgb(of(sums_[0]), of(sums_[1]), of(sums_[2])); }
-
- private:
-  struct Sums {
-    double x = 0, y = 0, xx = 0, xy = 0;
-  };
-  static float channel(const Rgb& c, std::size_t i) { return i == 0 ? c.r : i == 1 ? c.g : c.b; }
-  float of(const Sums& s) const {
-    return static_cast<float>((count_ * s.xy - s.x * s.y) / (count_ * s.xx - s.x * s.x));
-  }
-  std::array<Sums, 3> sums_;
-  double count_ = 0;
-  float most_ = 0;
-};
-
 class Detector {
  public:
   Detector(const Scene& scene, const World& world, const HostRenderer& host, const DetectParams& params,
@@ -99,6 +70,7 @@ class Detector {
     reflections();
     by_material();
     held_out();
+    placement();
     return std::move(out_);
   }
 
@@ -226,12 +198,25 @@ class Detector {
       const Rgb d = face.response.reflectance - material.response.reflectance;
       material.spread = std::max({material.spread, std::abs(d.r), std::abs(d.g), std::abs(d.b)});
     }
+    report_unknown();
     if (params_.per == DetectParams::Per::material)
       for (std::size_t m = 0; m < out_.materials.size(); ++m)
         if (out_.materials[m].spread > params_.spread_above)
           out_.findings.push_back(
               fmt::format("{} is not uniform: its faces differ by {:.0f} %; detect by face",
                           scene_.materials[m].name, 100 * out_.materials[m].spread));
+  }
+
+  void report_unknown() {
+    std::vector<uint8_t> worn(scene_.materials.size(), 0);
+    for (const Id<Material> m : world_.materials) worn[m.value] = 1;
+    for (std::size_t m = 0; m < worn.size(); ++m)
+      if (worn[m] != 0 && out_.materials[m].faces == 0)
+        out_.findings.push_back(
+            fmt::format("nothing is known of {}: no face of it was drawn, or all are too bright",
+                        scene_.materials[m].name));
+    if (out_.undrawn > 0)
+      out_.findings.push_back(fmt::format("{} of {} faces were not drawn", out_.undrawn, out_.faces.size()));
   }
 
   void held_out() {
@@ -251,6 +236,15 @@ class Detector {
     }
   }
 
+  void placement() {
+    out_.placement = placement_residual(host_, space_.triangles, params_.texels, out_.cost);
+    if (out_.placement > kPlacement)
+      out_.findings.push_back(fmt::format(
+          "the light on a face depends on where it is drawn, by {:.0f} %: renderers that look lights up by "
+          "the screen (clusters, tiles) do not fit",
+          100 * out_.placement));
+  }
+
   Vec3 far_eye(const Vec3& direction) const {
     return world_.bounds.center() + 10 * world_.bounds.diagonal() * direction;
   }
@@ -266,21 +260,6 @@ class Detector {
 };
 
 }  // namespace
-
-Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped) {
-  std::array<double, 3> sum{};
-  double count = 0;
-  each_pixel(space, face, [&](std::size_t pixel) {
-    const Rgb& light = captured.light[pixel];
-    sum[0] += static_cast<double>(light.r), sum[1] += static_cast<double>(light.g);
-    sum[2] += static_cast<double>(light.b);
-    clipped = clipped || captured.is_clipped(pixel);
-    ++count;
-  });
-  const double scale = 1 / std::max(count, 1.0);
-  return Rgb(static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
-             static_cast<float>(sum[2] * scale));
-}
 
 const SurfaceResponse& Detection::of(const World& world, uint32_t triangle) const {
   const auto it = std::lower_bound(faces.begin(), faces.end(), triangle,

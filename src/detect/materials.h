@@ -43,6 +43,9 @@ struct Detection {
   std::vector<DetectedMaterial> materials;  ///< per Scene material
   std::vector<DetectedFace> faces;          ///< that were looked at, by triangle
   std::size_t undrawn = 0;                  ///< faces of them that the renderer did not draw
+  /// How far all lights' light on a face depends on where on the target it is drawn, largest share: above a
+  /// few per cent the renderer looks lights up by the screen (clusters, tiles) and does not fit.
+  float placement = 0;
   CaptureCost cost;
   std::vector<std::string> findings;  ///< one line each: materials that are not Lambertian, not uniform
 
@@ -51,7 +54,7 @@ struct Detection {
 };
 
 /// Draws with no light on black and on white, with one light on the faces and on a white card in their place,
-/// along each axis; then with lights and eyes held out (lambertian.h).
+/// along each axis; then with lights and eyes held out (lambertian.h), and with all lights at two places.
 /// @throws Error naming the renderer's fault: besides capture()'s, it draws nothing, does not clear, or its
 /// card does not answer; Cancelled
 Detection detect_materials(const Scene& scene, const World& world, const HostRenderer& host,
@@ -59,8 +62,5 @@ Detection detect_materials(const Scene& scene, const World& world, const HostRen
 
 /// The scene with its materials replaced by the detected ones; materials of which nothing is known stay.
 Scene with_detected(Scene scene, const Detection& detection);
-
-/// Mean light of a face's pixels. @param clipped  set where a channel of any of them is
-Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped);
 
 }  // namespace sconce

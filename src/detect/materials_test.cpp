@@ -147,6 +147,30 @@ TEST(Materials, FacesOnDemand) {
   EXPECT_GT(found.faces[101].response.reflectance.g, found.faces[100].response.reflectance.g + 0.05f);
 }
 
+TEST(Materials, RenderersThatLookLightsUpByTheScreenAreTold) {
+  const Rig rig;
+  SyntheticHost host = rig.host();
+  host.lamps = {{Vec3(10, 10, 30), Rgb(900)}};
+  EXPECT_LT(detect_materials(rig.scene, rig.world, host.renderer()).placement, 1e-5f);
+  host.clustered = true;
+  const Detection found = detect_materials(rig.scene, rig.world, host.renderer());
+  EXPECT_GT(found.placement, 0.5f);
+  ASSERT_EQ(found.findings.size(), 1u);
+  EXPECT_NE(found.findings[0].find("where it is drawn"), std::string::npos);
+}
+
+TEST(Materials, WhatWasNotDrawnIsTold) {
+  const Rig rig;
+  SyntheticHost host = rig.host();
+  host.materials[5].response = {Rgb(), Rgb(1), Rgb()};
+  const Detection found = detect_materials(rig.scene, rig.world, host.renderer());
+  EXPECT_EQ(found.undrawn, 8u);
+  EXPECT_EQ(found.materials[5].faces, 0u);
+  ASSERT_EQ(found.findings.size(), 2u);
+  EXPECT_EQ(found.findings[0].find("nothing is known of m5: "), 0u);
+  EXPECT_EQ(found.findings[1], "8 of 480 faces were not drawn");
+}
+
 TEST(Materials, TheSceneTakesThem) {
   const Rig rig;
   SyntheticHost host = rig.host();

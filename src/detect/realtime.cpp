@@ -95,18 +95,17 @@ void RealtimeRadiosity::find_copies() {
 }
 
 void RealtimeRadiosity::set_materials(const Detection& detection) {
-  const auto albedo = std::make_shared<std::vector<Rgbx>>(op_.albedo.size());
-  const std::size_t points = op_.lit.size() / albedo->size();
-  for (std::size_t node = 0; node < albedo->size(); ++node) {
+  albedo_.resize(op_.albedo.size());
+  const std::size_t points = op_.lit.size() / albedo_.size();
+  for (std::size_t node = 0; node < albedo_.size(); ++node) {
     Rgb sum;
     for (std::size_t i = points * node; i < points * (node + 1); ++i)
       sum +=
           faces_[i] != kNone ? detection.of(world_, faces_[i]).reflectance : unpack_albedo(op_.lit[i].albedo);
     sum *= 1 / static_cast<float>(points);
-    (*albedo)[node] = {sum.r, sum.g, sum.b, 0};
+    albedo_[node] = {sum.r, sum.g, sum.b, 0};
   }
-  op_.albedo = *albedo;
-  op_.owners.push_back(albedo);
+  op_.albedo = albedo_;
   bounces_ = std::make_unique<FoldedBounces>(op_);
 }
 

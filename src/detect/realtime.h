@@ -60,6 +60,7 @@ class RealtimeRadiosity {
   TextureSpace direct_;
   HostRenderer host_;
   Operator op_;
+  std::vector<Rgbx> albedo_;  ///< the operator's, per node
   std::unique_ptr<FoldedBounces> bounces_;
   std::vector<uint32_t> faces_;     ///< per lit point: its triangle, or kNone
   std::vector<PixelBlend> blends_;  ///< per lit point: what it reads

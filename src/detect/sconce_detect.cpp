@@ -84,6 +84,9 @@ struct sconce_gi {
         vertex_count(g.vertices),
         host{[this, draw, user](const DrawRequest& r) { return call(draw, user, r); },
              static_cast<TargetFormat>(p.target)} {
+    if (draw == nullptr) throw Error("draw", "is no function");
+    if (p.target < SCONCE_TARGET_LINEAR || p.target > SCONCE_TARGET_POWER8)
+      throw Error("target", std::to_string(p.target), "SCONCE_TARGET_LINEAR, _SRGB8, _POWER8");
     detect_params.per = p.by_face != 0 ? DetectParams::Per::face : DetectParams::Per::material;
     detection = detect_materials(geometry.scene, world, host, detect_params);
     TransferParams params;

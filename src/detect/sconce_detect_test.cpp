@@ -82,6 +82,8 @@ TEST(DetectInC, Furnace) {
   EXPECT_EQ(sconce_gi_detect(gi, message, sizeof message), 1);
   sconce_gi_destroy(gi);
 
+  EXPECT_EQ(sconce_gi_create(&geometry, nullptr, &host, &params, message, sizeof message), nullptr);
+  EXPECT_STREQ(message, "draw: is no function");
   indices[4] = 999;
   EXPECT_EQ(sconce_gi_create(&geometry, CHost::draw, &host, &params, message, sizeof message), nullptr);
   EXPECT_STREQ(message, "geometry: triangle 1 has vertex 999 (allowed: less than 48)");

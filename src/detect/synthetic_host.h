@@ -29,9 +29,11 @@ struct SyntheticHost {
   std::vector<SyntheticLamp> lamps{};
   const Tracer* tracer = nullptr;  ///< shadows of the lamps
   bool attenuation = true;         ///< with the square of the distance
+  bool clustered = false;          ///< lamps are looked up by the pixel: none in the target's right half
   std::size_t draws = 0;
 
-  Rgb shaded(const SyntheticMaterial& m, const DrawRequest& request, const Vec3& at, const Vec3& n) const {
+  Rgb shaded(const SyntheticMaterial& m, const DrawRequest& request, const Vec3& at, const Vec3& n,
+             bool right) const {
     const Rgb rho = request.white_card ? Rgb(1) : m.response.reflectance;
     Rgb sum;
     const auto light = [&](const Vec3& to, const Rgb& strength) {
@@ -46,7 +48,7 @@ struct SyntheticHost {
     };
     if (request.lights == DrawRequest::Lights::probe)
       light(request.probe.to_light, Rgb(request.probe.intensity));
-    if (request.lights == DrawRequest::Lights::all)
+    if (request.lights == DrawRequest::Lights::all && !(clustered && right))
       for (const SyntheticLamp& lamp : lamps) {
         const float distance = glm::distance(lamp.position, at);
         const Vec3 to = (lamp.position - at) / distance;
@@ -74,7 +76,8 @@ struct SyntheticHost {
         const Vec2 w = inverse * (p - a);
         SyntheticMaterial m = materials[world.materials[t].value];
         m.response.reflectance += Rgb(shift * w.x * w.y * static_cast<float>(t % 2));
-        picture[pixel] = shaded(m, request, world.position(t, w), world.normal(t, w));
+        picture[pixel] = shaded(m, request, world.position(t, w), world.normal(t, w),
+                                2 * p.x > static_cast<float>(request.width));
       });
     }
     Drawing out;
