@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/geometry.h"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
-
+#include "gpu/surface_vertices.h"
 #include "transfer/operator.h"
 
 namespace sconce::gpu {
 
 namespace {
 
-/// What gpu/surface_vertex.glsl reads; texture transforms are applied already.
+/// What gpu/surface_vertex.glsl reads.
 struct Vertex {
-  Vec3 position;
-  Vec2 base, metallic, emission;
-  Vec3 front, back;                     ///< lightmap: u, v, page
+  SurfaceVertex surface;
   std::array<int16_t, 2> normal, face;  ///< octahedral; the face's where there is no normal
 };
 static_assert(sizeof(Vertex) == 17 * sizeof(float));
@@ -61,28 +56,10 @@ std::vector<float> decode_srgb(const std::vector<unsigned char>& rgba) {
   return out;
 }
 
-/// Where a corner of a triangle is in a texture.
-Vec2 place_in(const TextureUse& use, const World& world, std::size_t triangle, std::size_t k) {
-  const uint32_t v = world.triangles[triangle].v[k];
-  return use.transform(use.texcoord < world.texcoords.size() ? world.texcoords[use.texcoord][v] : Vec2(0));
-}
-
-Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t k) {
+Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t corner) {
   const World& world = shown.world;
-  const Material& material = shown.scene[world.materials[triangle]];
-  const auto place = [&](const TextureUse& use) { return place_in(use, world, triangle, k); };
-  const auto in_lightmap = [&](const LightmapSide& side) {
-    return Vec3(side.uv[k], static_cast<float>(side.page));
-  };
-  const uint32_t v = world.triangles[triangle].v[k];
-  const Vec3& face = world.face_normals[triangle];
-  return {world.positions[v],
-          place(material.base_color_texture),
-          place(material.metallic_roughness_texture),
-          place(material.emission_texture),
-          in_lightmap(shown.front[triangle]),
-          in_lightmap(shown.back[triangle]),
-          pack_normal(world.normals[v] == Vec3(0) ? face : world.normals[v]),
+  const Vec3 &normal = world.normals[world.triangles[triangle].v[corner]], &face = world.face_normals[triangle];
+  return {surface_vertex(shown, triangle, corner), pack_normal(normal == Vec3(0) ? face : normal),
           pack_normal(face)};
 }
 
@@ -131,27 +108,16 @@ Geometry::~Geometry() {
 }
 
 void Geometry::upload_triangles() {
-  const World& world = shown_->world;
-  const auto group = [&](uint32_t t) {
-    return shown_->scene[world.materials[t]].emits() ? shown_->scene[world.instances[t]].group
-                                                     : Id<LightGroup>();
-  };
-  std::vector<uint32_t> order(world.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return std::tuple(world.materials[a].value, group(a).value) <
-           std::tuple(world.materials[b].value, group(b).value);
-  });
   std::vector<Vertex> vertices;
   std::vector<Bend> bends;
-  vertices.reserve(3 * order.size());
-  for (const uint32_t t : order) {
-    if (batches_.empty() || batches_.back().material != world.materials[t] ||
-        batches_.back().group != group(t))
-      batches_.push_back({world.materials[t], group(t), static_cast<GLint>(vertices.size()), 0});
-    for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
-    if (normal_maps_) add_bends(*shown_, t, bends);
-    batches_.back().count += 3;
+  vertices.reserve(3 * shown_->world.size());
+  for (const SurfaceBatch& batch : surface_batches(*shown_)) {
+    batches_.push_back({batch.material, batch.group, static_cast<GLint>(vertices.size()),
+                        static_cast<GLsizei>(3 * batch.triangles.size())});
+    for (const uint32_t t : batch.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
+      if (normal_maps_) add_bends(*shown_, t, bends);
+    }
   }
   glCreateVertexArrays(1, &layout_);
   vertices_ = upload_attributes(vertices, layout_, 0, 0, {3, 2, 2, 2, 3, 3});
@@ -198,12 +164,6 @@ void Geometry::bind(const TextureUse& use, bool srgb, int unit) const {
   (found == textures_.end() ? white_ : found->second).bind(unit);
 }
 
-void Geometry::set_base(const Program& program, const Material& material) const {
-  bind(material.base_color_texture, true, 0);
-  program.set("alpha", material.alpha);
-  program.set("alpha_cutoff", material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : -1.0f);
-}
-
 void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) const {
   glBindVertexArray(layout_);
   surface.set("base_map", 0);
@@ -212,26 +172,19 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
   surface.set("normal_map", 3);
   for (const Batch& batch : batches_) {
     const Material& m = shown_->scene[batch.material];
-    set_base(surface, m);
+    bind(m.base_color_texture, true, 0);
     bind(m.metallic_roughness_texture, false, 1);
     bind(m.emission_texture, true, 2);
     bind(m.normal_texture, false, 3);
     surface.set("has_normal_map", normal_maps_ && m.normal_texture.texture ? 1 : 0);
     surface.set("normal_scale", m.normal_scale);
     surface.set("base_color", m.base_color);
+    surface.set("alpha", m.alpha);
+    surface.set("alpha_cutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f);
     surface.set("metallic", m.metallic);
     surface.set("emission", m.emission);
     surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
     surface.set("double_sided", m.double_sided ? 1 : 0);
-    glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
-  }
-}
-
-void Geometry::draw_shapes(const Program& shader) const {
-  glBindVertexArray(layout_);
-  shader.set("base_map", 0);
-  for (const Batch& batch : batches_) {
-    set_base(shader, shown_->scene[batch.material]);
     glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
   }
 }

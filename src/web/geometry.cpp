@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include "gpu/surface_vertices.h"
+#include "image/io.h"
+#include "web/parts.h"
+
+namespace sconce::web {
+
+namespace {
+
+using gpu::SurfaceVertex;
+
+/// Lightmap places as 16-bit fractions, page + 1.
+std::array<uint16_t, 3> lightmap_code(const Vec3& place) {
+  const auto code = [](float v) {
+    return static_cast<uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535));
+  };
+  if (place.z < 0) return {0, 0, 0};
+  return {code(place.x), code(place.y), static_cast<uint16_t>(place.z + 1)};
+}
+
+struct Streams {
+  std::vector<Vec3> positions;
+  std::vector<Vec2> base, metallic, emission;
+  std::vector<std::array<uint16_t, 3>> front, back;
+  std::vector<uint32_t> indices;
+};
+
+/// Equal vertices once.
+class VertexPool {
+ public:
+  explicit VertexPool(Streams& out) : out_(out) {}
+  void add(const SurfaceVertex& v) {
+    std::string key(reinterpret_cast<const char*>(&v), sizeof v);
+    const auto [at, is_new] = seen_.try_emplace(std::move(key), static_cast<uint32_t>(out_.positions.size()));
+    out_.indices.push_back(at->second);
+    if (!is_new) return;
+    out_.positions.push_back(v.position);
+    out_.base.push_back(v.base);
+    out_.metallic.push_back(v.metallic);
+    out_.emission.push_back(v.emission);
+    out_.front.push_back(lightmap_code(v.front));
+    out_.back.push_back(lightmap_code(v.back));
+  }
+
+ private:
+  Streams& out_;
+  std::unordered_map<std::string, uint32_t> seen_;
+};
+
+}  // namespace
+
+Json write_geometry(SiteFiles& files, const ShownScene& shown) {
+  Streams streams;
+  VertexPool pool(streams);
+  Json batches = Json::array();
+  for (const gpu::SurfaceBatch& batch : gpu::surface_batches(shown)) {
+    batches.push_back({{"material", batch.material.value},
+                       {"group", json_of(batch.group)},
+                       {"first", streams.indices.size()},
+                       {"count", 3 * batch.triangles.size()}});
+    for (const uint32_t t : batch.triangles)
+      for (std::size_t k = 0; k < 3; ++k) pool.add(gpu::surface_vertex(shown, t, k));
+  }
+  const auto used = [&](TextureUse Material::*slot) {
+    return std::any_of(shown.scene.materials.begin(), shown.scene.materials.end(),
+                       [&](const Material& m) { return (m.*slot).texture.valid(); });
+  };
+  const Bounds& bounds = shown.world.bounds;
+  Json out = {{"vertices", streams.positions.size()},
+              {"bounds", {{bounds.lo.x, bounds.lo.y, bounds.lo.z}, {bounds.hi.x, bounds.hi.y, bounds.hi.z}}},
+              {"batches", std::move(batches)}};
+  Json& parts = out["streams"];
+  parts["indices"] = files.write_packed("indices.bin", streams.indices);
+  parts["positions"] = files.write_packed("positions.bin", streams.positions);
+  parts["front"] = files.write_packed("front.bin", streams.front);
+  const bool backs =
+      std::any_of(streams.back.begin(), streams.back.end(), [](const auto& b) { return b[2] != 0; });
+  if (backs) parts["back"] = files.write_packed("back.bin", streams.back);
+  if (used(&Material::base_color_texture)) parts["base"] = files.write_packed("base.bin", streams.base);
+  if (used(&Material::metallic_roughness_texture))
+    parts["metallic"] = files.write_packed("metallic.bin", streams.metallic);
+  if (used(&Material::emission_texture))
+    parts["emission"] = files.write_packed("emission.bin", streams.emission);
+  return out;
+}
+
+Json write_materials(const Scene& scene) {
+  Json out = Json::array();
+  for (const Material& m : scene.materials)
+    out.push_back({{"name", m.name},
+                   {"baseColor", json_of(m.base_color)},
+                   {"alpha", m.alpha},
+                   {"alphaCutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f},
+                   {"metallic", m.metallic},
+                   {"emission", json_of(m.emission)},
+                   {"doubleSided", m.double_sided},
+                   {"baseMap", json_of(m.base_color_texture.texture)},
+                   {"metallicMap", json_of(m.metallic_roughness_texture.texture)},
+                   {"emissionMap", json_of(m.emits() ? m.emission_texture.texture : Id<Texture>())}});
+  return out;
+}
+
+Json write_textures(SiteFiles& files, const Scene& scene) {
+  constexpr const char* kWrap[] = {"repeat", "mirror", "clamp"};
+  std::vector<bool> used(scene.textures.size(), false);
+  for (const Material& m : scene.materials)
+    for (const TextureUse& use : {m.base_color_texture, m.metallic_roughness_texture, m.emission_texture})
+      if (use.texture) used[use.texture.value] = true;
+  Json out = Json::array();
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& texture = scene.textures[i];
+    Json entry = Json::object();
+    if (used[i] && !texture.pixels.data.empty()) {
+      const std::vector<unsigned char> file =
+          texture.file.empty() ? encode_png(texture.pixels) : texture.file;
+      const std::string extension = texture.file.empty() || texture.mime == "image/png" ? "png"
+                                    : texture.mime == "image/webp"                      ? "webp"
+                                                                                        : "jpg";
+      entry = files.write("texture-" + std::to_string(i) + "." + extension,
+                          {reinterpret_cast<const char*>(file.data()), file.size()});
+      entry["wrap"] = {kWrap[static_cast<std::size_t>(texture.wrap_u)],
+                       kWrap[static_cast<std::size_t>(texture.wrap_v)]};
+      entry["nearest"] = texture.nearest;
+    }
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+Json write_skies(SiteFiles& files, const Scene& scene) {
+  Json out = Json::array();
+  for (const Light& light : scene.lights) {
+    const auto* sky = std::get_if<SkyLight>(&light.shape);
+    if (sky == nullptr) continue;
+    Image image = sky->image;
+    if (image.data.empty()) {
+      image = Image::rgb(1, 1);
+      image.data = {1, 1, 1};
+    }
+    const EncodedImage codes = encode(image, find_encoding("rgbe8"));
+    Json entry = files.write_packed("sky-" + std::to_string(out.size()) + ".bin", codes.data, 4);
+    entry["width"] = image.width;
+    entry["height"] = image.height;
+    entry["group"] = json_of(light.group);
+    entry["scale"] = json_of(light.intensity);
+    Json& axes = entry["axes"];  // of its frame in the world: x, y, z
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) axes.push_back(light.frame[i][k]);
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace sconce::web

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a site, written one by one; each returns what sconce.json says of it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "package/shown_scene.h"
+#include "web/meter_points.h"
+#include "web/site.h"
+
+namespace sconce::web {
+
+using Json = nlohmann::ordered_json;
+
+inline Json json_of(const Rgb& c) {
+  return {c.r, c.g, c.b};
+}
+/// Index, or -1.
+template <class T>
+Json json_of(Id<T> id) {
+  return id.valid() ? static_cast<int64_t>(id.value) : -1;
+}
+
+/// Writes packed arrays and counts.
+class SiteFiles {
+ public:
+  explicit SiteFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// @return {"file": name, "bytes": of it}
+  Json write(const std::string& name, std::string_view bytes);
+  template <class T>
+  Json write_packed(const std::string& name, const std::vector<T>& values, std::size_t numbers = 1) {
+    return write_packed(name, std::as_bytes(std::span(values)), numbers * sizeof(T));
+  }
+  Json write_packed(const std::string& name, std::span<const std::byte> data, std::size_t element);
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::size_t bytes_ = 0;
+};
+
+Json write_geometry(SiteFiles& files, const ShownScene& shown);
+Json write_materials(const Scene& scene);
+Json write_textures(SiteFiles& files, const Scene& scene);
+Json write_skies(SiteFiles& files, const Scene& scene);
+Json write_meter(SiteFiles& files, const MeterPoints& points);
+Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier,
+                const std::optional<EncodingChoice>& encoding);
+
+}  // namespace sconce::web

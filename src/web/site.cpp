@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/site.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "mix/settings.h"
+#include "web/packed.h"
+#include "web/parts.h"
+
+namespace sconce::web {
+
+namespace {
+
+constexpr std::string_view kSurface =
+#include "gpu/surface.glsl.h"
+    ;
+
+Json groups_json(const Manifest& m) {
+  Json out = Json::array();
+  for (const GroupInfo& group : m.groups)
+    out.push_back({{"name", group.name},
+                   {"lumens", group.lumens},
+                   {"color", json_of(group.color)},
+                   {"infinite", group.infinite},
+                   {"meanLux", group.mean_lux},
+                   {"lamps", group.lamps}});
+  return out;
+}
+
+Json cameras_json(const std::vector<Camera>& cameras) {
+  Json out = Json::array();
+  for (const Camera& camera : cameras) {
+    Json matrix = Json::array();
+    for (int i = 0; i < 16; ++i) matrix.push_back(camera.frame[i / 4][i % 4]);
+    out.push_back(
+        {{"name", camera.name}, {"matrix", matrix}, {"yfov", camera.yfov}, {"aspect", camera.aspect}});
+  }
+  return out;
+}
+
+Json presets_json(const Manifest& m, const SiteParams& params) {
+  Json out = Json::array();
+  for (const auto& [name, preset] : params.presets) {
+    make_mix(m.groups, preset.assignments, preset.others, {});  // told now rather than in the browser
+    out.push_back({{"name", name},
+                   {"settings", preset.assignments},
+                   {"others", preset.others},
+                   {"exposure", preset.exposure},
+                   {"ev100", preset.ev100},
+                   {"tone", preset.tone},
+                   {"camera", preset.camera}});
+  }
+  return out;
+}
+
+Json tones_json() {
+  Json out = Json::array();
+  for (const ToneMapper& mapper : tone_mappers())
+    out.push_back({{"name", mapper.name}, {"doc", mapper.doc}, {"glsl", tone_glsl(mapper)}});
+  return out;
+}
+
+}  // namespace
+
+Json SiteFiles::write(const std::string& name, std::string_view bytes) {
+  write_file(folder_ / name, bytes);
+  bytes_ += bytes.size();
+  return {{"file", name}, {"bytes", bytes.size()}};
+}
+
+Json SiteFiles::write_packed(const std::string& name, std::span<const std::byte> data, std::size_t element) {
+  return write(name, pack(data, element));
+}
+
+SiteReport write_site(const Package& package, const std::filesystem::path& folder, const SiteParams& params,
+                      const Progress& progress) {
+  const Manifest& m = package.manifest();
+  const uint64_t steps = params.tiers.size() + 2;
+  uint64_t step = 0;
+  const auto next = [&] {
+    progress.check();
+    progress.at("export", step++, steps);
+  };
+  SiteFiles files(folder);
+  SiteReport report;
+  std::size_t before = 0;
+  const auto written = [&] { return files.bytes() - std::exchange(before, files.bytes()); };
+
+  next();
+  const ShownScene shown(package);
+  Json out = {{"format", "sconce-web"},
+              {"version", 1},
+              {"generator", m.generator},
+              {"name", m.scene_name},
+              {"atlas", {{"width", m.width}, {"height", m.height}, {"pages", m.pages}}},
+              {"groups", groups_json(m)},
+              {"cameras", cameras_json(params.cameras)},
+              {"presets", presets_json(m, params)}};
+  out["geometry"] = write_geometry(files, shown);
+  report.geometry = written();
+  out["materials"] = write_materials(shown.scene);
+  out["textures"] = write_textures(files, shown.scene);
+  out["skies"] = write_skies(files, shown.scene);
+  report.textures = written();
+  next();
+  out["meter"] = write_meter(files, choose_meter_points(package, shown, progress));
+  report.meter = written();
+  for (const ShaderTier* tier : params.tiers) {
+    next();
+    out["tiers"].push_back(write_tier(files, package, *tier, params.encoding));
+    report.tiers.push_back({tier->name, written()});
+  }
+  out["surface"] = kSurface;
+  out["tones"] = tones_json();
+  write_file(folder / kSiteFile, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return report;
+}
+
+}  // namespace sconce::web
