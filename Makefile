@@ -11,7 +11,7 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build test bench validate format tidy setup
+.PHONY: help demo build web test bench validate format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -25,12 +25,17 @@ $(BUILD)/build.ninja: | setup
 build: setup $(BUILD)/build.ninja ## the program: build/release/sconce
 	ninja -C $(BUILD) sconce
 
+web: setup $(BUILD)/build.ninja ## the page of sconce export --web and serve: build/release/web (needs npm)
+	@tools/setup.sh web && cmake --preset release -B $(BUILD) >/dev/null
+	ninja -C $(BUILD) web
+
 demo: build ## bake our bathroom and picture it in four moods: out/demo/
 	scenes/demo.sh $(BUILD) $(OUT)/demo
 
 # The suite `lean` leaves out what needs large packages (label big); SUITES=all adds it.
 test: setup $(BUILD)/build.ninja ## build everything and run the tests; SUITES=all for the whole suite
-	$(if $(filter all,$(SUITES)),@tools/setup.sh lean all && cmake --preset release -B $(BUILD) >/dev/null)
+	$(if $(filter all,$(SUITES)),@tools/setup.sh lean all web && cmake --preset release -B $(BUILD) >/dev/null)
+	$(if $(filter all,$(SUITES)),ninja -C $(BUILD) web)
 	ninja -C $(BUILD)
 	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS) $(if $(filter all,$(SUITES)),,-LE big)
 

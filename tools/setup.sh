@@ -18,6 +18,9 @@ if ! command -v dpkg-query >/dev/null; then
   exit 0
 fi
 
+# A package that another one stands in for (npm of a newer nodejs) is there.
+installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | awk '$1 == "installed"' |
+  sed 's/^installed //; s/([^)]*)//g' | tr -s ', ' '\n')
 missing=()
 for section in "${sections[@]}"; do
   packages=$(packages_of "$section") || {
@@ -25,8 +28,7 @@ for section in "${sections[@]}"; do
     exit 2
   }
   for package in $packages; do
-    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
-    [ "$status" = installed ] || missing+=("$package")
+    grep -qxF -- "$package" <<<"$installed" || missing+=("$package")
   done
 done
 [ ${#missing[@]} -gt 0 ] || exit 0

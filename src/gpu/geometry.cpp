@@ -164,6 +164,12 @@ void Geometry::bind(const TextureUse& use, bool srgb, int unit) const {
   (found == textures_.end() ? white_ : found->second).bind(unit);
 }
 
+void Geometry::set_base(const Program& program, const Material& material) const {
+  bind(material.base_color_texture, true, 0);
+  program.set("alpha", material.alpha);
+  program.set("alpha_cutoff", material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : -1.0f);
+}
+
 void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) const {
   glBindVertexArray(layout_);
   surface.set("base_map", 0);
@@ -172,19 +178,26 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
   surface.set("normal_map", 3);
   for (const Batch& batch : batches_) {
     const Material& m = shown_->scene[batch.material];
-    bind(m.base_color_texture, true, 0);
+    set_base(surface, m);
     bind(m.metallic_roughness_texture, false, 1);
     bind(m.emission_texture, true, 2);
     bind(m.normal_texture, false, 3);
     surface.set("has_normal_map", normal_maps_ && m.normal_texture.texture ? 1 : 0);
     surface.set("normal_scale", m.normal_scale);
     surface.set("base_color", m.base_color);
-    surface.set("alpha", m.alpha);
-    surface.set("alpha_cutoff", m.alpha_mode == Material::Alpha::mask ? m.alpha_cutoff : -1.0f);
     surface.set("metallic", m.metallic);
     surface.set("emission", m.emission);
     surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
     surface.set("double_sided", m.double_sided ? 1 : 0);
+    glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
+  }
+}
+
+void Geometry::draw_shapes(const Program& shader) const {
+  glBindVertexArray(layout_);
+  shader.set("base_map", 0);
+  for (const Batch& batch : batches_) {
+    set_base(shader, shown_->scene[batch.material]);
     glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
   }
 }

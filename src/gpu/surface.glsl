@@ -9,22 +9,24 @@ uniform bool double_sided, has_normal_map;
 uniform float normal_scale;
 uniform int look;        // gpu/view.h
 uniform vec2 page_size;  // texels of a lightmap page
-uniform vec3 eye;
-uniform mat3 plane;  // Lens::plane
-uniform vec2 shift;  // of the picture below its sampling points, in pixels
 
-in vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
-in vec2 normal_uv;
-in vec3 place, normal;
+in vec2 base_uv, metallic_uv, emission_uv, normal_uv;
+centroid in vec2 front_uv, back_uv;  // with several samples per pixel, never beyond a chart
+in vec3 normal;
 in vec4 tangent;
 flat in vec3 face_normal;
 flat in int front_page, back_page;
 
 layout(location = 0) out vec4 seen;  // cd/m2; 1 where it is an emitter
-// SeenSurfaces, where they are asked for.
+#ifdef SEEN_SURFACES  // for gpu/seen_surfaces.h
+uniform vec3 eye;
+uniform mat3 plane;  // Lens::plane
+uniform vec2 shift;  // of the picture below its sampling points, in pixels
+in vec3 place;
 layout(location = 1) out vec4 seen_place;
 layout(location = 2) out vec4 seen_normals;
 layout(location = 3) out vec4 seen_albedo;
+#endif
 
 // World::normal
 vec3 front_normal() {
@@ -71,6 +73,7 @@ void main() {
     return;
   }
   seen = vec4(albedo * light * 0.318309886 + weight * shines, any(notEqual(shines, vec3(0.0))) ? 1.0 : 0.0);
+#ifdef SEEN_SURFACES
   bool lit = gl_FrontFacing || double_sided;
   float side = gl_FrontFacing ? 1.0 : -1.0;
   // Rasterisation snaps corners to 1/256 of a pixel; the ray through the sampling point meets the face just here.
@@ -78,4 +81,5 @@ void main() {
   seen_place = vec4(eye + ray * (dot(place - eye, face_normal) / dot(ray, face_normal)), 1.0);
   seen_normals = vec4(sconce_to_octahedral(side * front_normal()), sconce_to_octahedral(side * face_normal));
   seen_albedo = vec4(lit ? albedo : vec3(0.0), 0.0);
+#endif
 }

@@ -17,8 +17,8 @@ uniform vec2 shift;     // of the picture below its sampling points, in pixels
 uniform vec2 size;      // of the picture
 uniform float near;     // m
 
-out vec2 base_uv, metallic_uv, emission_uv, front_uv, back_uv;
-out vec2 normal_uv;
+out vec2 base_uv, metallic_uv, emission_uv, normal_uv;
+centroid out vec2 front_uv, back_uv;
 out vec3 place, normal;
 out vec4 tangent;
 flat out vec3 face_normal;

@@ -122,7 +122,7 @@ Json write_textures(SiteFiles& files, const Scene& scene) {
                                     : texture.mime == "image/webp"                      ? "webp"
                                                                                         : "jpg";
       entry = files.write("texture-" + std::to_string(i) + "." + extension,
-                          {reinterpret_cast<const char*>(file.data()), file.size()});
+                          [&] { return std::string(file.begin(), file.end()); });
       entry["wrap"] = {kWrap[static_cast<std::size_t>(texture.wrap_u)],
                        kWrap[static_cast<std::size_t>(texture.wrap_v)]};
       entry["nearest"] = texture.nearest;

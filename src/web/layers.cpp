@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "encode/half.h"
 #include "gpu/tiers.h"
 #include "mix/encoded_layers.h"
@@ -58,9 +62,9 @@ Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier
   const EncodedLayers layers = gpu::for_tier(layers_of(package, encoding), tier);
   const ComposedShader shader = compose(spec_of(layers, tier));
   Json out = {{"name", name}, {"doc", tier.doc}, {"needs", needs_of(shader)}};
-  out["shader"] = files.write(name + ".glsl", shader.text)["file"];
+  out["shader"] = files.write(name + ".glsl", [&] { return shader.text; })["file"];
   for (const Rgb& color : layers.colors) out["colors"].push_back(json_of(color));
-  const std::size_t before = files.bytes();
+  std::size_t bytes = 0;
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
     const EncodedImage& first = layers.images[t].front();
     Json texture = {{"encoding", layers.textures[t].encoding.name()},
@@ -71,12 +75,13 @@ Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier
     for (int page = 0; page < layers.pages(); ++page) {
       const EncodedImage& image = layers.images[t][static_cast<std::size_t>(page)];
       texture["pages"].push_back(
-          files.write_packed(name + "-" + std::to_string(t) + "-" + std::to_string(page) + ".bin", image.data,
+          files.write_packed(fmt::format("layer-{}-{}-{}.bin", t, page, first.encoding->name), image.data,
                              element_bytes(image)));
+      bytes += texture["pages"].back()["bytes"].get<std::size_t>();
     }
     out["textures"].push_back(std::move(texture));
   }
-  out["bytes"] = files.bytes() - before;
+  out["bytes"] = bytes;
   for (const ShaderSampler& sampler : shader.samplers) {
     Json slices = Json::array();
     for (const auto& slice : sampler.slices)

@@ -2,6 +2,8 @@
 // Parts of a site, written one by one; each returns what sconce.json says of it.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "package/shown_scene.h"
@@ -21,12 +23,12 @@ Json json_of(Id<T> id) {
   return id.valid() ? static_cast<int64_t>(id.value) : -1;
 }
 
-/// Writes packed arrays and counts.
+/// Writes files, each name once, and counts.
 class SiteFiles {
  public:
   explicit SiteFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
   /// @return {"file": name, "bytes": of it}
-  Json write(const std::string& name, std::string_view bytes);
+  Json write(const std::string& name, const std::function<std::string()>& make);
   template <class T>
   Json write_packed(const std::string& name, const std::vector<T>& values, std::size_t numbers = 1) {
     return write_packed(name, std::as_bytes(std::span(values)), numbers * sizeof(T));
@@ -36,6 +38,7 @@ class SiteFiles {
 
  private:
   std::filesystem::path folder_;
+  std::map<std::string, std::size_t> written_;  ///< bytes, by name
   std::size_t bytes_ = 0;
 };
 

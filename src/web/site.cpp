@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/kelvin.h"
 #include "mix/settings.h"
 #include "web/packed.h"
 #include "web/parts.h"
@@ -53,6 +54,15 @@ Json presets_json(const Manifest& m, const SiteParams& params) {
   return out;
 }
 
+/// Colours of black bodies, so that the page needs no table of the eye's sensitivity.
+Json kelvins_json() {
+  constexpr double kStep = 50;
+  Json colors = Json::array();
+  for (double kelvin = kKelvinMin; kelvin <= kKelvinMax; kelvin += kStep)
+    colors.push_back(json_of(kelvin_color(kelvin)));
+  return {{"from", kKelvinMin}, {"step", kStep}, {"colors", std::move(colors)}};
+}
+
 Json tones_json() {
   Json out = Json::array();
   for (const ToneMapper& mapper : tone_mappers())
@@ -62,14 +72,19 @@ Json tones_json() {
 
 }  // namespace
 
-Json SiteFiles::write(const std::string& name, std::string_view bytes) {
-  write_file(folder_ / name, bytes);
-  bytes_ += bytes.size();
-  return {{"file", name}, {"bytes", bytes.size()}};
+Json SiteFiles::write(const std::string& name, const std::function<std::string()>& make) {
+  const auto [at, is_new] = written_.try_emplace(name);
+  if (is_new) {
+    const std::string bytes = make();
+    write_file(folder_ / name, bytes);
+    at->second = bytes.size();
+    bytes_ += bytes.size();
+  }
+  return {{"file", name}, {"bytes", at->second}};
 }
 
 Json SiteFiles::write_packed(const std::string& name, std::span<const std::byte> data, std::size_t element) {
-  return write(name, pack(data, element));
+  return write(name, [&] { return pack(data, element); });
 }
 
 SiteReport write_site(const Package& package, const std::filesystem::path& folder, const SiteParams& params,
@@ -108,10 +123,11 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
   for (const ShaderTier* tier : params.tiers) {
     next();
     out["tiers"].push_back(write_tier(files, package, *tier, params.encoding));
-    report.tiers.push_back({tier->name, written()});
+    report.tiers.push_back({tier->name, out["tiers"].back()["bytes"].get<std::size_t>()});
   }
   out["surface"] = kSurface;
   out["tones"] = tones_json();
+  out["kelvins"] = kelvins_json();
   write_file(folder / kSiteFile, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   return report;
 }

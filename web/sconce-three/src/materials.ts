@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shaders that sconce composed, as materials of three.js.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  ClampToEdgeWrapping,
+  DataTexture,
+  DoubleSide,
+  GLSL3,
+  type IUniform,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  MirroredRepeatWrapping,
+  NearestFilter,
+  NoColorSpace,
+  RepeatWrapping,
+  ShaderMaterial,
+  SRGBColorSpace,
+  Texture,
+  Vector3,
+} from 'three';
+
+import { fetchBlob, fetchPacked } from './fetch.js';
+import type { Site, SiteMaterial, StreamName } from './site.js';
+
+export type Uniforms = Record<string, IUniform>;
+/** display: sRGB codes by sconce's own curve. linear: exposed light, for the renderer's tone mapping. */
+export type Output = 'display' | 'linear';
+
+// `normal` is an attribute of three.js and a varying of the surface's shader.
+const kVertex = `
+#define normal surface_normal
+in vec2 base_place, metallic_place, emission_place;
+in vec3 front_place, back_place;  // u, v in 1/65535, page + 1
+
+out vec2 base_uv, metallic_uv, emission_uv, normal_uv;
+centroid out vec2 front_uv, back_uv;
+out vec3 normal;
+out vec4 tangent;
+flat out vec3 face_normal;
+flat out int front_page, back_page;
+
+void main() {
+  base_uv = base_place;
+  metallic_uv = metallic_place;
+  emission_uv = emission_place;
+  normal_uv = vec2(0.0);
+  normal = face_normal = vec3(0.0);
+  tangent = vec4(0.0);
+  front_uv = front_place.xy / 65535.0;
+  back_uv = back_place.xy / 65535.0;
+  front_page = int(front_place.z) - 1;
+  back_page = int(back_place.z) - 1;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}
+`;
+
+/** After the surface's or the sky's main(), which gives cd/m² in `seen`. */
+const kFinish: Record<Output, string> = {
+  display: '  seen = vec4(linear_to_srgb(tone_map(seen.rgb * sconce_exposure, sconce_tone)), 1.0);\n',
+  linear: `  seen = vec4(seen.rgb * sconce_exposure, 1.0);
+#define gl_FragColor seen
+#include <tonemapping_fragment>
+#include <colorspace_fragment>
+`,
+};
+
+function finished(main: string, tone: string, output: Output): string {
+  return `${main}
+${tone}
+uniform ToneParams sconce_tone;
+uniform float sconce_exposure;
+uniform int sconce_read;  // 1: lux, 2: cd/m2, instead of a picture
+
+void main() {
+  sconce_main();
+  if (sconce_read == 1) seen = vec4(sconce_lux, 1.0);
+  if (sconce_read != 0) return;
+${kFinish[output]}}
+`;
+}
+
+/** @param mixing the tier's shader */
+export function surfaceShader(site: Site, mixing: string, tone: string, output: Output): string {
+  const surface = `
+${mixing}
+vec3 sconce_lux = vec3(0.0);
+vec3 illuminance(vec2 uv, int page, vec3 offset) {
+  return sconce_lux = sconce_illuminance(uv, page);
+}
+#define normal surface_normal
+#define main sconce_main
+${site.surface}
+#undef main
+`;
+  return finished(surface, tone, output);
+}
+
+export function surfaceMaterial(
+  site: Site,
+  batch: Site['geometry']['batches'][number],
+  pictures: IUniform<Texture>[],
+  weights: Vector3[],
+  shared: Uniforms,
+): ShaderMaterial {
+  const m: SiteMaterial = site.materials[batch.material]!;
+  const map = (index: number): IUniform => pictures[index] ?? { value: kWhite };
+  return new ShaderMaterial({
+    name: m.name,
+    glslVersion: GLSL3,
+    side: DoubleSide,
+    vertexShader: kVertex,
+    uniforms: {
+      ...shared,
+      base_map: map(m.baseMap),
+      metallic_map: map(m.metallicMap),
+      emission_map: map(m.emissionMap),
+      normal_map: { value: kWhite },
+      has_normal_map: { value: false },
+      normal_scale: { value: 1 },
+      base_color: { value: new Vector3(...m.baseColor) },
+      alpha: { value: m.alpha },
+      alpha_cutoff: { value: m.alphaCutoff },
+      metallic: { value: m.metallic },
+      emission: { value: new Vector3(...m.emission) },
+      weight: { value: weights[batch.group] ?? new Vector3(1, 1, 1) },
+      double_sided: { value: m.doubleSided },
+    },
+  });
+}
+
+/** Stands for pictures that are not there, or not yet. */
+export const kWhite: Texture = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
+kWhite.needsUpdate = true;
+
+const kWraps: Record<string, typeof RepeatWrapping | typeof ClampToEdgeWrapping | typeof MirroredRepeatWrapping> = {
+  repeat: RepeatWrapping,
+  clamp: ClampToEdgeWrapping,
+  mirror: MirroredRepeatWrapping,
+};
+
+/** Of the site's pictures. */
+export async function loadPicture(site: Site, index: number, base: string, signal?: AbortSignal): Promise<Texture> {
+  const entry = site.textures[index]!;
+  const bitmap = await createImageBitmap(await fetchBlob(base + entry.file, signal), {
+    premultiplyAlpha: 'none',
+    colorSpaceConversion: 'none',
+  });
+  const texture = new Texture(bitmap);
+  const isData = site.materials.some((m) => m.metallicMap === index);
+  texture.colorSpace = isData ? NoColorSpace : SRGBColorSpace;
+  texture.flipY = false;
+  texture.wrapS = kWraps[entry.wrap?.[0] ?? 'repeat']!;
+  texture.wrapT = kWraps[entry.wrap?.[1] ?? 'repeat']!;
+  texture.magFilter = entry.nearest ? NearestFilter : LinearFilter;
+  texture.minFilter = entry.nearest ? NearestFilter : LinearMipmapLinearFilter;
+  texture.generateMipmaps = !entry.nearest;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+const kStreams: Record<StreamName, [name: string, numbers: number, Kind: 'f' | 's' | 'i']> = {
+  indices: ['', 1, 'i'],
+  positions: ['position', 3, 'f'],
+  front: ['front_place', 3, 's'],
+  back: ['back_place', 3, 's'],
+  base: ['base_place', 2, 'f'],
+  metallic: ['metallic_place', 2, 'f'],
+  emission: ['emission_place', 2, 'f'],
+};
+
+/** @throws Error in words for people */
+export async function loadGeometry(
+  site: Site,
+  base: string,
+  arrived: (bytes: number) => void,
+  signal?: AbortSignal,
+): Promise<BufferGeometry> {
+  const geometry = new BufferGeometry();
+  const load = async (stream: StreamName) => {
+    const file = site.geometry.streams[stream];
+    if (!file) return;
+    const [name, numbers, kind] = kStreams[stream];
+    const data = await fetchPacked(base + file.file, numbers * (kind === 's' ? 2 : 4), arrived, signal);
+    const array = kind === 's' ? new Uint16Array(data) : kind === 'i' ? new Uint32Array(data) : new Float32Array(data);
+    if (stream === 'indices') geometry.setIndex(new BufferAttribute(array, 1));
+    else geometry.setAttribute(name, new BufferAttribute(array, numbers));
+  };
+  await Promise.all((Object.keys(kStreams) as StreamName[]).map(load));
+  site.geometry.batches.forEach((batch, i) => geometry.addGroup(batch.first, batch.count, i));
+  return geometry;
+}
+
+const kSkyVertex = `
+out vec3 sconce_direction;
+void main() {
+  gl_Position = vec4(position.xy, 1.0, 1.0);
+  vec4 far = inverse(projectionMatrix) * gl_Position;
+  sconce_direction = inverse(mat3(modelViewMatrix)) * (far.xyz / far.w);
+}
+`;
+
+/** Twin of src/light/sky.cpp for all skies at once: lat-long, row 0 up, the centre column towards -z. */
+export function skyShader(count: number, tone: string, output: Output): string {
+  let main = `in vec3 sconce_direction;
+out vec4 seen;
+const vec3 sconce_lux = vec3(0.0);
+vec3 sconce_sky(sampler2D image, vec3 d) {
+  vec2 place = vec2(0.5 + atan(d.x, -d.z) / 6.28318530718, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265359);
+  ivec2 size = textureSize(image, 0);
+  vec4 code = floor(texelFetch(image, clamp(ivec2(place * vec2(size)), ivec2(0), size - 1), 0) * 255.0 + 0.5);
+  return code.a > 0.0 ? (code.rgb + 0.5) * exp2(code.a - 136.0) : vec3(0.0);
+}
+`;
+  for (let i = 0; i < count; ++i)
+    main += `uniform sampler2D sky_${i};\nuniform vec3 sky_scale_${i}, sky_weight_${i};\nuniform mat3 sky_frame_${i};\n`;
+  main += 'void sconce_main() {\n  vec3 d = normalize(sconce_direction);\n  seen = vec4(0.0, 0.0, 0.0, 1.0);\n';
+  for (let i = 0; i < count; ++i)
+    main += `  seen.rgb += sky_weight_${i} * sky_scale_${i} * sconce_sky(sky_${i}, d * sky_frame_${i});\n`;
+  return finished(`${main}}\n`, tone, output);
+}
+
+export function skyMaterial(uniforms: Uniforms): ShaderMaterial {
+  return new ShaderMaterial({
+    name: 'sky',
+    glslVersion: GLSL3,
+    vertexShader: kSkyVertex,
+    depthWrite: false,
+    uniforms,
+  });
+}
