@@ -74,6 +74,7 @@ int run_mix(int argc, const char* const* argv);
 int run_render(int argc, const char* const* argv);
 int run_shader(int argc, const char* const* argv);
 int run_export(int argc, const char* const* argv);
+int run_serve(int argc, const char* const* argv);
 int run_luminaire(int argc, const char* const* argv);
 int run_transfer(int argc, const char* const* argv);
 int run_relight(int argc, const char* const* argv);

@@ -24,6 +24,7 @@ constexpr Verb kVerbs[] = {
     {"mix", "a package (or a picture with light groups) and settings to one lightmap (or picture)", run_mix},
     {"render", "a package and group settings to a picture", run_render},
     {"export", "a package as a web page with faders, for any web server", run_export},
+    {"serve", "that page from this machine, its faders shared between windows and scripts", run_serve},
     {"shader", "the shader that mixes a package's layers, for another renderer", run_shader},
     {"luminaire", "measured lamps: info, check, convert", run_luminaire},
     {"transfer", "a package to an operator that carries moved lamps' light through all bounces",

@@ -40,15 +40,20 @@ export async function openBrowser(...more) {
 }
 
 /** A page, its console's errors and the bytes of what it loaded. */
-export async function openPage(browser, url, size = { width: 640, height: 360 }) {
+export async function openPage(browser, url, size = { width: 800, height: 450 }) {
   const page = await browser.newPage({ viewport: size, reducedMotion: 'reduce' });
-  const seen = { page, errors: [], bytes: 0 };
+  const sizes = [];
+  const seen = {
+    page,
+    errors: [],
+    bytes: async () => (await Promise.all(sizes)).reduce((sum, size) => sum + size.responseBodySize, 0),
+  };
   page.on('console', (message) => {
     if (message.type() === 'error') seen.errors.push(message.text());
   });
   page.on('pageerror', (error) => seen.errors.push(String(error)));
-  page.on('requestfinished', async (request) => {
-    if (request.url().startsWith('http')) seen.bytes += (await request.sizes()).responseBodySize;
+  page.on('requestfinished', (request) => {
+    if (request.url().startsWith('http')) sizes.push(request.sizes());
   });
   await page.goto(url);
   return seen;

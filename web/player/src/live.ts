@@ -6,7 +6,7 @@ import type { SharedMix, State } from './state';
 const kPause = 60; // ms between two messages of this window
 
 export class Live {
-  private last = '';
+  private readonly name = Math.random().toString(36).slice(2);
   private waiting = false;
 
   /** @param mode of the page's <meta name="sconce-live">: empty = no server, read, write */
@@ -18,9 +18,9 @@ export class Live {
     if (mode === '') return;
     const events = new EventSource('events');
     events.onmessage = (event) => {
-      if (event.data === this.last) return;
-      this.last = event.data as string;
-      this.state.shared = JSON.parse(this.last) as SharedMix;
+      const mix = JSON.parse(event.data as string) as SharedMix;
+      if (mix.from === this.name) return;
+      this.state.shared = mix;
       onShown();
     };
     if (mode === 'write') state.onEdit = () => this.send();
@@ -31,9 +31,8 @@ export class Live {
     this.waiting = true;
     setTimeout(() => {
       this.waiting = false;
-      const text = JSON.stringify(this.state.shared);
-      this.last = text;
-      fetch('mix', { method: 'PUT', body: text, headers: { 'content-type': 'application/json' } }).catch(() => {});
+      const body = JSON.stringify({ ...this.state.shared, from: this.name });
+      fetch('mix', { method: 'PUT', body, headers: { 'content-type': 'application/json' } }).catch(() => {});
     }, kPause);
   }
 }

@@ -19,7 +19,8 @@ function display(linear: readonly number[]): string {
 }
 
 function labelled(text: string, control: HTMLElement): HTMLElement {
-  return element('label', { class: 'row' }, element('span', {}, text), control);
+  control.setAttribute('aria-label', text);
+  return element('div', { class: 'row' }, element('span', { 'aria-hidden': 'true' }, text), control);
 }
 
 export class Panel {

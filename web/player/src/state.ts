@@ -13,6 +13,8 @@ export interface SharedMix {
   exposure: string;
   ev100: string;
   tone: string;
+  /** The window that changed it. */
+  from?: string;
 }
 
 export class State {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page in the distribution's headless browser: its canvas shows the CPU's picture, by every set of layers
+// and after faders were moved; it is usable by keyboard and says what is missing (web/test).
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/test_data.h"
+#include "image/io.h"
+#include "package/test_package.h"
+#include "process.h"
+#include "small_scenes.h"
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace sconce {
+namespace {
+
+bool can_browse() {
+  const bool browser = std::getenv("CHROMIUM") != nullptr || fs::exists("/usr/bin/chromium");
+  return browser && std::system("command -v node >/dev/null") == 0 &&
+         fs::exists(fs::path(SCONCE_PROGRAM).parent_path() / "web/index.html") &&
+         fs::exists(SCONCE_SOURCE_DIR "/web/node_modules/playwright-core");
+}
+
+class Browser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (can_browse()) return;
+    constexpr const char* kMissing = "node, chromium or the page ('make web') is absent";
+    if (test_data_required()) FAIL() << kMissing;
+    GTEST_SKIP() << kMissing;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void run(const std::vector<std::string>& args) const {
+    const test::Outcome outcome = test::run_sconce(args);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  void bake(const std::string& scene, const std::vector<std::string>& more) const {
+    std::vector<std::string> args{"bake", scene, "-o", path("x.sconce"), "--quiet"};
+    args.insert(args.end(), more.begin(), more.end());
+    run(args);
+  }
+  static test::Outcome node(const std::string& script, const std::vector<std::string>& args) {
+    std::vector<std::string> words{SCONCE_SOURCE_DIR "/web/test/" + script};
+    words.insert(words.end(), args.begin(), args.end());
+    return test::run_program("node", words);
+  }
+
+  struct Case {
+    std::string query;
+    Json steps;                         ///< in the browser
+    std::vector<std::string> settings;  ///< the same for `sconce render`
+  };
+  /// @return the browser's report of each case
+  Json compare(const std::vector<Case>& cases) const {
+    Json pictures = Json::array();
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      pictures.push_back({{"query", cases[i].query},
+                          {"file", path("web" + std::to_string(i) + ".png")},
+                          {"steps", cases[i].steps}});
+    const test::Outcome outcome = node("pictures.mjs", {path("site"), pictures.dump()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    if (outcome.code != 0) return Json::array();
+    const Json report = Json::parse(outcome.out);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      SCOPED_TRACE(cases[i].query + " " + cases[i].steps.dump());
+      EXPECT_EQ(report[i]["state"], "ready");
+      EXPECT_EQ(report[i]["errors"], Json::array());
+      std::vector<std::string> args{"render", path("x.sconce"), "--device", "cpu", "--size", "800x450",
+                                    "-o",     path("cpu.png"),  "--quiet"};
+      args.insert(args.end(), cases[i].settings.begin(), cases[i].settings.end());
+      run(args);
+      expect_alike(path("web" + std::to_string(i) + ".png"), path("cpu.png"));
+    }
+    return report;
+  }
+  static Image8 codes(const std::string& file) {
+    const std::string bytes = read_file(file);
+    return decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file);
+  }
+  static void expect_alike(const std::string& a_file, const std::string& b_file) {
+    const Image8 a = codes(a_file), b = codes(b_file);
+    ASSERT_EQ(a.width, b.width);
+    ASSERT_EQ(a.height, b.height);
+    double difference = 0, light = 0;
+    const auto pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+    for (std::size_t i = 0; i < pixels; ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int code = a.data[i * static_cast<std::size_t>(a.channels) + c];
+        difference += std::abs(code - int{b.data[i * static_cast<std::size_t>(b.channels) + c]});
+        light += code;
+      }
+    EXPECT_LE(difference / static_cast<double>(3 * pixels), 2) << "mean, in codes";
+    EXPECT_GT(light / static_cast<double>(3 * pixels), 16) << "too dark to compare";
+    RecordProperty("mean_codes", std::to_string(difference / static_cast<double>(3 * pixels)));
+  }
+  TemporaryFolder folder_;
+};
+
+Json press(const std::string& label, const std::string& key, int times) {
+  return {"press", label, key, times};
+}
+
+// Every tier; faders, colours and switches; every kind of exposure and curve.
+TEST_F(Browser, BathroomLooksAsOnTheCpu) {
+  bake(SCONCE_SOURCE_DIR "/scenes/bathroom.glb", {"--atlas", "512", "--samples", "4", "--bounces", "2"});
+  run({"export", path("x.sconce"), "--web", path("site"), "--tiers", "full,half,unfiltered,byte", "--quiet"});
+  std::vector<Case> cases;
+  for (const char* tier : {"full", "half", "unfiltered", "byte"})
+    cases.push_back({std::string("tier=") + tier, Json::array(), {}});
+  cases.push_back({"tier=half",
+                   {press("mirror brightness, in stops", "ArrowRight", 15),
+                    {"click", "window on"},
+                    {"select", "ceiling colour", "kelvin"},
+                    {"select", "Tone curve", "drago"}},
+                   {"mirror=+1.5ev", "window=off", "ceiling=2700K", "--tone", "drago"}});
+  cases.push_back({"tier=byte",
+                   {{"click", "mirror alone"},
+                    press("Exposure, in stops from automatic", "ArrowLeft", 10),
+                    {"select", "Tone curve", "reinhard"}},
+                   {"--others", "off", "mirror=on", "--exposure", "-1", "--tone", "reinhard"}});
+  const Json report = compare(cases);
+  ASSERT_EQ(report.size(), cases.size());
+  // Four small layers against three.js and the pictures on the walls: the program is 0.6 MB.
+  std::size_t layers = 0;
+  for (const auto& entry : fs::directory_iterator(path("x.sconce") + "/layers")) layers += entry.file_size();
+  EXPECT_LE(report[1]["bytes"].get<double>(), 1.5 * static_cast<double>(layers) + 1.5e6);
+}
+
+// Pages share arrays, and so do more layers than there are texture units; luminances share textures.
+TEST_F(Browser, PagesManyLayersAndLuminances) {
+  struct Kind {
+    int groups, pages;
+    const char* encoding;
+  };
+  for (const Kind& kind : {Kind{3, 2, "f16"}, {16, 1, "exp8"}, {5, 2, "lum:f16"}, {6, 1, "lum:multi8"}}) {
+    SCOPED_TRACE(kind.encoding);
+    PackageContents contents = test_package(kind.groups, kind.pages, 32, 32);
+    contents.manifest.instance_pages = {kind.pages - 1};
+    contents.encodings.assign(static_cast<std::size_t>(kind.groups), kind.encoding);
+    for (GroupInfo& group : contents.manifest.groups) group.color = Rgb(0.55f, 1.1f, 1.65f);
+    write_package(path("x.sconce"), contents);
+    run({"export", path("x.sconce"), "--web", path("site"), "--quiet"});
+    compare({{"tier=half", {press("a brightness, in stops", "ArrowLeft", 20)}, {"a=-2ev"}},
+             {"tier=byte", {press("c brightness, in stops", "ArrowRight", 10)}, {"c=+1ev"}}});
+  }
+}
+
+// A sky is seen, and follows its fader.
+TEST_F(Browser, Sky) {
+  const std::string scene = folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));
+  folder_.write("room.toml", "[sky]\nluminance = 20\n");
+  bake(scene, {"--atlas", "64", "--samples", "4"});
+  run({"export", path("x.sconce"), "--web", path("site"), "--quiet"});
+  compare({{"tier=half", {press("sky brightness, in stops", "ArrowLeft", 20)}, {"sky=-2ev"}}});
+}
+
+TEST_F(Browser, IsUsableAndSaysWhatIsMissing) {
+  bake(SCONCE_SOURCE_DIR "/scenes/bathroom.glb", {"--atlas", "256", "--samples", "1", "--bounces", "1"});
+  const std::string preset = folder_.write("dim.toml", "[mix]\nceiling = \"-2ev\"\n");
+  run({"export", path("x.sconce"), "--web", path("site"), "--preset", preset, "--quiet"});
+  const test::Outcome outcome = node("page.mjs", {path("site")});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+}
+
+}  // namespace
+}  // namespace sconce
