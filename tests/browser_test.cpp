@@ -94,7 +94,8 @@ class Browser : public testing::Test {
       }
     EXPECT_LE(difference / static_cast<double>(3 * pixels), 2) << "mean, in codes";
     EXPECT_GT(light / static_cast<double>(3 * pixels), 16) << "too dark to compare";
-    RecordProperty("mean_codes", std::to_string(difference / static_cast<double>(3 * pixels)));
+    RecordProperty(("mean_codes_" + fs::path(a_file).stem().string()).c_str(),
+                   std::to_string(difference / static_cast<double>(3 * pixels)));
   }
   TemporaryFolder folder_;
 };

@@ -55,7 +55,8 @@ TEST(MeterPoints, MeterAsAllTexels) {
        {std::vector<std::string>{}, {"a=off"}, {"b=off", "c=off"}, {"c=+6ev,2700K"}}) {
     const MixSpec mix = make_mix(package.manifest().groups, settings, "", {});
     const Metering exact = meter(package, mix, mix_pages(package, mix));
-    EXPECT_NEAR(log_mean(points, mix) / exact.log_mean, 1, 0.02);
+    // ln E of one group deviates by 4 / 2; one standard error of 3072 points that know nothing of each other.
+    EXPECT_NEAR(log_mean(points, mix) / exact.log_mean, 1, 2 / std::sqrt(3072.0));
   }
 }
 

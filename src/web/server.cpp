@@ -96,6 +96,11 @@ Server::Server(SharedMix mix, const ServerParams& params)
     : state_(std::make_unique<State>(std::move(mix), params)) {
   httplib::Server& http = state_->http;
   http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  // Not the library's SO_REUSEPORT, by which two servers would take turns at one port.
+  http.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   http.set_payload_max_length(kLargestRequest);
   http.set_read_timeout(std::chrono::seconds(5));
   http.set_write_timeout(std::chrono::seconds(15));

@@ -54,6 +54,7 @@ class Socket {
 class Served : public testing::Test {
  protected:
   void SetUp() override {
+    std::filesystem::create_directory(folder_ / "site");
     folder_.write("site/index.html", "the page");
     folder_.write("secret", "not for you");
     start(false);
