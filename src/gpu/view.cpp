@@ -113,7 +113,7 @@ void View::draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shif
 }
 
 const Program& View::surface_for(const LightSource& light) {
-  const std::string head = std::string(kVersion) + std::string(octahedral_glsl());
+  const std::string head = std::string(kVersion) + "#define SEEN_SURFACES\n" + std::string(octahedral_glsl());
   std::string text = head + light.glsl() + std::string(kSurface);
   if (!surface_ || text != surface_text_) {
     surface_ = std::make_unique<Program>("surface", head + std::string(kSurfaceVertex), text);

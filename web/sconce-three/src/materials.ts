@@ -2,11 +2,12 @@
 // The shaders that sconce composed, as materials of three.js.
 
 import {
+  BackSide,
   BufferAttribute,
   BufferGeometry,
   ClampToEdgeWrapping,
   DataTexture,
-  DoubleSide,
+  FrontSide,
   GLSL3,
   type IUniform,
   LinearFilter,
@@ -103,13 +104,20 @@ export function surfaceMaterial(
   pictures: IUniform<Texture>[],
   weights: Vector3[],
   shared: Uniforms,
+  side: typeof FrontSide | typeof BackSide,
 ): ShaderMaterial {
   const m: SiteMaterial = site.materials[batch.material]!;
   const map = (index: number): IUniform => pictures[index] ?? { value: kWhite };
   return new ShaderMaterial({
     name: m.name,
     glslVersion: GLSL3,
-    side: DoubleSide,
+    side,
+    // Fronts win where both meet at an edge, and depth is too coarse to tell.
+    polygonOffset: side === BackSide,
+    polygonOffsetFactor: 4,
+    polygonOffsetUnits: 64,
+    // three.js turns the winding round to draw backs.
+    defines: side === BackSide ? { gl_FrontFacing: '(!gl_FrontFacing)' } : {},
     vertexShader: kVertex,
     uniforms: {
       ...shared,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
+  BackSide,
   BufferAttribute,
   BufferGeometry,
   type Camera,
   DataTexture,
   FloatType,
+  FrontSide,
   Group,
   type IUniform,
   Matrix3,
@@ -67,7 +69,7 @@ export class Sconce extends Group {
   private mode: ExposureMode = { stops: 0 };
   private curve = 'agx';
   private pixel?: WebGLRenderTarget;
-  private readonly surface: Mesh<BufferGeometry, ShaderMaterial[]>;
+  private readonly sides: Mesh<BufferGeometry, ShaderMaterial[]>[];
   private readonly pictures: IUniform<Texture>[];
   private picturesArrived = false;
 
@@ -97,11 +99,13 @@ export class Sconce extends Group {
       sconce_read: { value: 0 },
     };
     this.pictures = site.textures.map(() => ({ value: kWhite }));
-    const materials = site.geometry.batches.map((batch) =>
-      surfaceMaterial(site, batch, this.pictures, this.shown, this.shared),
-    );
-    this.surface = new Mesh(geometry, materials);
-    this.add(this.surface);
+    this.sides = ([FrontSide, BackSide] as const).map((side) => {
+      const materials = site.geometry.batches.map((batch) =>
+        surfaceMaterial(site, batch, this.pictures, this.shown, this.shared, side),
+      );
+      return new Mesh(geometry, materials);
+    });
+    this.add(...this.sides);
     this.addSky();
     this.writeShaders();
     this.update();
@@ -123,7 +127,7 @@ export class Sconce extends Group {
     if (!from) throw new Error(`there is no camera ${index}`);
     const [lo, hi] = this.site.geometry.bounds;
     const size = Math.hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
-    const camera = new PerspectiveCamera((from.yfov * 180) / Math.PI, aspect, 5e-4 * size, 20 * size);
+    const camera = new PerspectiveCamera((from.yfov * 180) / Math.PI, aspect, 1.5e-3 * size, 20 * size);
     camera.name = from.name;
     new Matrix4().fromArray(from.matrix).decompose(camera.position, camera.quaternion, camera.scale);
     camera.scale.set(1, 1, 1);
@@ -219,8 +223,10 @@ export class Sconce extends Group {
   /** Frees what the graphics device holds. */
   dispose(): void {
     this.kept.dispose();
-    this.surface.geometry.dispose();
-    for (const material of this.surface.material) material.dispose();
+    for (const { geometry, material } of this.sides) {
+      geometry.dispose();
+      for (const one of material) one.dispose();
+    }
     for (const texture of [...this.pictures.map((p) => p.value), ...this.skies]) texture.dispose();
     this.sky?.geometry.dispose();
     this.sky?.material.dispose();
@@ -257,7 +263,7 @@ export class Sconce extends Group {
   private writeShaders(): void {
     const tone = this.site.tones.find((t) => t.name === this.curve)!.glsl;
     const text = surfaceShader(this.site, this.mixing, tone, this.output);
-    for (const material of this.surface.material) {
+    for (const material of this.sides.flatMap((mesh) => mesh.material)) {
       material.fragmentShader = text;
       material.needsUpdate = true;
     }
