@@ -8,8 +8,8 @@
 
 namespace sconce::gpu {
 
-/// Layers of which this tier has no textures are encoded anew (tier_encoding). @throws Error when there are
-/// no layers
+/// Layers of which this tier has no textures are encoded anew (tier_encoding), what is too bright for halves
+/// in 8 bits with an exponent. @throws Error when there are no layers
 EncodedLayers for_tier(EncodedLayers layers, const ShaderTier& tier);
 
 /// The best tier of all that the device has.

@@ -2,8 +2,10 @@
 #include "web/meter_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "mix/mix.h"
 

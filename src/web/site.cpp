@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/site.h"
 
+#include <utility>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/kelvin.h"
