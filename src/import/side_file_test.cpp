@@ -202,6 +202,8 @@ TEST(SideFile, WhatHasNoLightGetsASky) {
   Warnings w;
   const Scene scene = import_scene(folder.write("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), w.progress);
   EXPECT_TRUE(w.any("overcast sky of 10,000 lx"));
+  EXPECT_TRUE(w.any("[[light]]"));
+  EXPECT_TRUE(w.any("x.toml"));
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_NEAR(horizontal_illuminance(std::get<SkyLight>(scene.lights[0].shape).image), 10000, 1);
 }

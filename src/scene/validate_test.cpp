@@ -86,19 +86,6 @@ TEST(Validate, NoTriangles) {
   }
 }
 
-TEST(Validate, NoLampsNamesTheWays) {
-  Scene scene = small_scene();
-  scene.lights.clear();
-  Result r;
-  validate(scene, r.progress);
-  EXPECT_TRUE(r.says("small.toml"));
-  EXPECT_TRUE(r.says("[[light]]"));
-  scene.materials[0].emission = Rgb(1);
-  Result lit;
-  validate(scene, lit.progress);
-  EXPECT_EQ(lit.warnings, "");
-}
-
 TEST(Validate, AlbedoScaleTexcoordsAndNumbers) {
   Scene scene = small_scene();
   scene.materials[0].base_color = Rgb(0.97f);
