@@ -78,6 +78,7 @@ int run_serve(int argc, const char* const* argv);
 int run_luminaire(int argc, const char* const* argv);
 int run_transfer(int argc, const char* const* argv);
 int run_relight(int argc, const char* const* argv);
+int run_init(int argc, const char* const* argv);
 int run_probe(int argc, const char* const* argv);
 int run_fit(int argc, const char* const* argv);
 int run_view(int argc, const char* const* argv);

@@ -19,6 +19,7 @@ using namespace sconce::app;
 
 constexpr Verb kVerbs[] = {
     {"info", "what is in a scene or a package: counts, groups with lumens, cameras, layers", run_info},
+    {"init", "a commented side file for a scene, or a room with luminaires", run_init},
     {"bake", "a scene to a package with one lightmap per light group", run_bake},
     {"merge", "shards of one bake to a package", run_merge},
     {"mix", "a package (or a picture with light groups) and settings to one lightmap (or picture)", run_mix},
