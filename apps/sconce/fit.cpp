@@ -11,6 +11,7 @@
 #include "image/io.h"
 #include "mix_options.h"
 #include "picture_options.h"
+#include "probe_points.h"
 #include "session/goals.h"
 
 namespace fs = std::filesystem;
@@ -29,17 +30,10 @@ struct PointGoal {
 
   explicit PointGoal(const std::string& text) {
     const std::size_t equals = text.find('=');
-    const std::optional<double> target =
-        equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
-    std::vector<float> numbers;
-    for (const std::string& part : split(text.substr(0, equals), ','))
-      if (const auto value = parse_number(trim(part))) numbers.push_back(static_cast<float>(*value));
-    if (!target || !(*target >= 0) || (numbers.size() != 3 && numbers.size() != 6))
+    const auto target = parse_number(equals == std::string::npos ? "" : text.substr(equals + 1));
+    if (!target || !(*target >= 0))
       throw UsageError("option '--lux'", "'" + text + "' is no goal", "X,Y,Z=LUX or X,Y,Z,NX,NY,NZ=LUX");
-    const Vec3 normal = numbers.size() == 6
-                            ? normalize_or({numbers[3], numbers[4], numbers[5]}, Vec3(0, 1, 0))
-                            : Vec3(0, 1, 0);
-    at = {{numbers[0], numbers[1], numbers[2]}, normal, normal};
+    at = parse_probe(text.substr(0, equals), "option '--lux'");
     lux = *target;
   }
 };

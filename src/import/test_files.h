@@ -46,6 +46,16 @@ std::string error_of(F&& f) {
   return {};
 }
 
+/// Area of a mesh that lies in the plane z = 0, negative where it faces down.
+inline float flat_area(const Mesh& mesh) {
+  float area = 0;
+  for (const Triangle& t : mesh.triangles)
+    area += 0.5f * glm::cross(mesh.positions[t.v[1]] - mesh.positions[t.v[0]],
+                              mesh.positions[t.v[2]] - mesh.positions[t.v[0]])
+                       .z;
+  return area;
+}
+
 inline std::string base64(const std::vector<unsigned char>& bytes) {
   static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;

@@ -81,7 +81,9 @@ TEST(Fit, IsOptimal) {
       for (std::size_t i = 0; i < rows.size(); ++i)
         gradient += rows[i][g] * (targets[i] - mixed(rows[i], found.gains));
       EXPECT_LE(gradient, 1e-8);
-      if (found.gains[g] > 0) EXPECT_NEAR(gradient, 0, 1e-8);
+      if (found.gains[g] > 0) {
+        EXPECT_NEAR(gradient, 0, 1e-8);
+      }
     }
   }
 }

@@ -31,10 +31,9 @@ TEST(Preset, OthersInsideMix) {
 }
 
 TEST(Preset, PrintedOnesReadBack) {
-  Preset preset{.assignments = {"lamp*=0.25", "a \"b\" c=0.5,2700K", "ceiling=off"},
-                .others = "off",
-                .ev100 = "9",
-                .tone = "drago"};
+  Preset preset;
+  preset.assignments = {"lamp*=0.25", "a \"b\" c=0.5,2700K", "ceiling=off"};
+  preset.others = "off", preset.ev100 = "9", preset.tone = "drago";
   const TemporaryFolder folder;
   write_file(folder / "p.toml", print_preset(preset));
   const Preset read = read_preset(folder / "p.toml");

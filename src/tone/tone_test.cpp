@@ -81,9 +81,15 @@ TEST(Tone, LuminanceCurvesPreserveLuminance) {
     const double x709 = luminance(c) / params.adaptation, x601 = luminance(c, kRec601) / params.adaptation;
     const double m = params.maximum / params.adaptation;
     // Nothing clips here: largest channel / luminance stays below 1 / l_out.
-    if (t709.max() < 1) EXPECT_NEAR(luminance(t709), drago_luminance(x709, m, 0.85), 4e-7);
-    if (t601.max() < 1) EXPECT_NEAR(luminance(t601, kRec601), drago_luminance(x601, m, 0.85), 4e-7);
-    if (r.max() < 1) EXPECT_NEAR(luminance(r), reinhard_luminance(luminance(c), 40), 4e-7);
+    if (t709.max() < 1) {
+      EXPECT_NEAR(luminance(t709), drago_luminance(x709, m, 0.85), 4e-7);
+    }
+    if (t601.max() < 1) {
+      EXPECT_NEAR(luminance(t601, kRec601), drago_luminance(x601, m, 0.85), 4e-7);
+    }
+    if (r.max() < 1) {
+      EXPECT_NEAR(luminance(r), reinhard_luminance(luminance(c), 40), 4e-7);
+    }
   }
 }
 
