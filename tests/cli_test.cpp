@@ -106,7 +106,7 @@ TEST(Cli, HelpAndVersion) {
 }
 
 TEST(Cli, UsageErrorsExitWithTwo) {
-  expect_error(run_sconce({}), 2, "", {"missing verb", "info, bake"});
+  expect_error(run_sconce({}), 2, "", {"missing verb", "info, init, bake"});
   expect_error(run_sconce({"rendr"}), 2, "", {"unknown verb 'rendr'", "did you mean 'render'?"});
   expect_error(run_sconce({"--quite"}), 2, "", {"unknown option '--quite'"});
   for (const std::string& verb : kVerbs) {

@@ -162,8 +162,9 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   auto& [scene, output, shard, quality, basis, samples, bounces, seed, page, density, noise, photons,
          direct_estimate, denoise, time, max_error] = request.given;
   BakeJob& job = request.job;
-  options.positional("SCENE", &scene,
-                     "glTF (.glb, .gltf) or OBJ file; SCENE.toml beside it adds lights, groups, options");
+  options.positional(
+      "SCENE", &scene,
+      "glTF, OBJ, FBX, COLLADA, 3DS, PLY or STL file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
   options.option("--solver", &job.solver,

@@ -61,7 +61,9 @@ int run_info(int argc, const char* const* argv) {
   std::string file, groups = "auto", groups_from;
   bool list_options = false;
   Options options("info", "What is in a scene, a package, or a picture with light groups.");
-  options.positional("file", &file, "scene (.glb .gltf .obj), package (NAME.sconce) or picture (.exr)");
+  options.positional(
+      "file", &file,
+      "scene (.glb .gltf .obj .fbx .dae .3ds .ply .stl), package (NAME.sconce) or picture (.exr)");
   options.option("--groups", &groups, "how a scene's lights become groups: auto, named, per-light, one");
   options.option(
       "--groups-from", &groups_from,

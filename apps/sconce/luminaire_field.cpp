@@ -41,9 +41,10 @@ int run_luminaire_field(int argc, const char* const* argv) {
   Options options("luminaire field",
                   "Rays of a lamp, or a luminaire modelled as a scene, to its near-field light field "
                   "(docs/luminaires.md).");
-  options.positional("file", &file,
-                     "TM-25, LightTools or Zemax rays; or a scene (.glb, .gltf, .obj) with emissive faces: a "
-                     "luminaire that hangs, nadir -y, metals its mirrors");
+  options.positional(
+      "file", &file,
+      "TM-25, LightTools or Zemax rays; or a scene (.glb, .obj, .fbx, ...) with emissive faces: a "
+      "luminaire that hangs, nadir -y, metals its mirrors");
   options.option("-o,--output", &output, "light field to write, .exr");
   options.option("--basis", &basis, "spline, or the paper's bell");
   options.option("--spacing", &spacing, "millimetres between filters on the sampling plane");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "luminaire_rays.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "import/import.h"
 #include "measure/virtual_bench.h"
@@ -12,7 +14,7 @@ namespace {
 
 bool names_scene(const std::string& file) {
   const std::string type = lower(std::filesystem::path(file).extension().string());
-  return type == ".glb" || type == ".gltf" || type == ".obj";
+  return std::ranges::find(scene_endings(), type) != scene_endings().end();
 }
 
 }  // namespace

@@ -162,7 +162,8 @@ int run_mix(int argc, const char* const* argv) {
     print(done, options, job.input,
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
-  if (!job.frames.empty() || fs::is_regular_file(job.input)) {
+  const bool is_picture = lower(fs::path(job.input).extension().string()) == ".exr";
+  if (!job.frames.empty() || is_picture || fs::is_regular_file(job.input)) {
     const MixedPictures mixed = mix_pictures(job, settings, preset, tone, make_progress(options));
     report({mixed.files, mixed.width, mixed.height, mixed.groups, mixed.mix});
     return kDone;

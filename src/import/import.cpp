@@ -60,6 +60,12 @@ std::optional<fs::path> side_file_of(const fs::path& scene) {
 
 }  // namespace
 
+std::span<const std::string_view> scene_endings() {
+  static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx",
+                                                  ".dae", ".3ds",  ".ply", ".stl"};
+  return kEndings;
+}
+
 Scene import_scene(const fs::path& path, const Progress& progress) {
   Scene scene = read_any(path, progress);
   if (const auto side = side_file_of(path)) apply_side_file(*side, scene, progress);

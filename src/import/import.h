@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -16,6 +18,9 @@ namespace sconce {
 /// warnings that name them.
 /// @throws Error: one line, file and place
 Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
+
+/// Endings of the files that import_scene() is for, lower case: ".glb", ".gltf", ...
+std::span<const std::string_view> scene_endings();
 
 /// glTF 2.0, .gltf and .glb. @throws NotMyFormat, Error
 Scene import_gltf(const std::filesystem::path& path, const Progress& progress = {});
