@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "image/io.h"
+#include "import/uri.h"
 #include "session/look.h"
 #include "session/plane_picture.h"
 
@@ -29,17 +30,6 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
-}
-
-std::string base64(const std::vector<unsigned char>& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t v = 0;
-    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[v >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
 }
 
 constexpr const char* kStyle =
@@ -110,7 +100,7 @@ std::string probe_html(const ProbeReport& r) {
   if (r.at.plane)
     text += fmt::format(
         "<img alt=\"the plane in false colours, {:.4g} to {:.4g} lx\" src=\"data:image/png;base64,{}\">\n",
-        all.minimum, all.maximum, base64(encode_png(probe_picture(r))));
+        all.minimum, all.maximum, encode_base64(encode_png(probe_picture(r))));
   text += "<h2>Assumptions</h2>\n<table>\n";
   for (const auto& [name, value] : r.assumptions)
     text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), escaped(value));

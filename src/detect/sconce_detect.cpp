@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "core/c_message.h"
 #include "core/error.h"
 #include "detect/realtime.h"
 
@@ -11,12 +12,6 @@ using namespace sconce;
 namespace {
 
 constexpr uint32_t kNone = 0xffffffffu;
-
-void tell(const std::string& what, char* message, size_t size) {
-  if (message == nullptr || size == 0) return;
-  std::strncpy(message, what.c_str(), size - 1);
-  message[size - 1] = '\0';
-}
 
 /// The host's triangles as a scene: a mesh for each material, whose vertices are those that it uses.
 struct HostGeometry {
@@ -153,7 +148,7 @@ sconce_gi* sconce_gi_create(const sconce_geometry* geometry, sconce_draw draw, v
   try {
     return new sconce_gi(*geometry, draw, user, params != nullptr ? *params : sconce_gi_params{});
   } catch (const std::exception& e) {
-    tell(e.what(), message, message_size);
+    copy_message(e.what(), message, message_size);
     return nullptr;
   }
 }
@@ -183,7 +178,7 @@ int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size) {
     gi->radiosity->set_materials(gi->detection);
     return 0;
   } catch (const std::exception& e) {
-    tell(e.what(), message, message_size);
+    copy_message(e.what(), message, message_size);
     return 1;
   }
 }
@@ -199,6 +194,6 @@ int sconce_gi_update(sconce_gi* gi, float* ambient, sconce_frame* frame, char* m
     out[0] = light[v].r, out[1] = light[v].g, out[2] = light[v].b;
   }
   if (report) return 0;
-  tell(report.fault, message, message_size);
+  copy_message(report.fault.c_str(), message, message_size);
   return 1;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/c_message.h"
 #include "core/parallel.h"
 #include "transfer/folded_bounces.h"
 
@@ -38,10 +39,7 @@ sconce_transfer* sconce_transfer_open(const char* path, char* message, size_t me
   try {
     return new sconce_transfer(path);
   } catch (const std::exception& e) {
-    if (message != nullptr && message_size > 0) {
-      std::strncpy(message, e.what(), message_size - 1);
-      message[message_size - 1] = '\0';
-    }
+    copy_message(e.what(), message, message_size);
     return nullptr;
   }
 }

@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "import/picture.h"
+#include "import/uri.h"
 
 namespace fs = std::filesystem;
 
@@ -46,11 +47,6 @@ std::vector<unsigned char> bytes_of(const fs::path& file, const aiScene& read, c
   return {bytes.begin(), bytes.end()};
 }
 
-bool is_file(const fs::path& path) {
-  std::error_code ec;
-  return fs::is_regular_file(path, ec);
-}
-
 }  // namespace
 
 fs::path find_beside(const fs::path& scene, std::string name) {
@@ -59,7 +55,8 @@ fs::path find_beside(const fs::path& scene, std::string name) {
   if (is_file(given)) return given;
   std::error_code ec;
   const std::string last = lower(given.filename().string());
-  for (const fs::directory_entry& entry : fs::directory_iterator(scene.has_parent_path() ? scene.parent_path() : ".", ec))
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(scene.has_parent_path() ? scene.parent_path() : ".", ec))
     if (lower(entry.path().filename().string()) == last && is_file(entry.path())) return entry.path();
   return given;
 }

@@ -20,7 +20,7 @@ std::string meshopt_view(int buffer, std::size_t bytes, int stride, std::size_t 
 
 std::string data_uri(const Stream& stream) {
   return R"({"byteLength":)" + std::to_string(stream.size()) +
-         R"(,"uri":"data:application/octet-stream;base64,)" + base64(stream) + "\"}";
+         R"(,"uri":"data:application/octet-stream;base64,)" + encode_base64(stream) + "\"}";
 }
 
 /// A square of two triangles, its positions and indices compressed.
@@ -97,7 +97,7 @@ std::string textured(const Stream& picture, const char* extension) {
     "nodes":[{"mesh":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
     "textures":[{"extensions":{")") +
                 extension + R"(":{"source":0}}}],"extensionsRequired":[")" + extension +
-                R"("],"images":[{"uri":"data:image/x;base64,)" + base64(picture) + "\"}]");
+                R"("],"images":[{"uri":"data:image/x;base64,)" + encode_base64(picture) + "\"}]");
 }
 
 TEST(GltfPictures, WebpIsDecoded) {

@@ -120,7 +120,8 @@ TEST(GltfMaterials, MissingAndDamagedTexturesAreNamed) {
 TEST(GltfMaterials, InlineGreyAndAlphaPictures) {
   const TemporaryFolder folder;
   const std::string grey = pixels({10, 200}, 2, 1, 1);
-  const std::string uri = "data:image/png;base64," + base64({grey.begin(), grey.end()});
+  const std::string uri =
+      "data:image/png;base64," + encode_base64(std::vector<unsigned char>(grey.begin(), grey.end()));
   const Scene scene = import_with(
       R"("nodes":[{"mesh":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
     "textures":[{"source":0}],"images":[{"uri":")" +

@@ -89,11 +89,6 @@ fs::path beside(const fs::path& scene, const std::string& uri) {
   return scene.parent_path() / fs::path(percent_decoded(uri));
 }
 
-bool is_file(const fs::path& path) {
-  std::error_code ec;
-  return fs::is_regular_file(path, ec);
-}
-
 /// The bytes of one buffer; nothing where it is not there (a warning has said so).
 std::optional<Bytes> read_buffer(const json& buffer, std::size_t index, const GltfContainer& container,
                                  const fs::path& path, const Progress& progress) {

@@ -8,17 +8,13 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "import/assimp_materials.h"
+#include "import/uri.h"
 
 namespace fs = std::filesystem;
 
 namespace sconce {
 
 namespace {
-
-bool is_file(const fs::path& path) {
-  std::error_code ec;
-  return fs::is_regular_file(path, ec);
-}
 
 /// What follows `keyword` on the lines that begin with it.
 std::vector<std::string> statements(const fs::path& file, std::string_view keyword) {

@@ -24,13 +24,8 @@ void place(Mat4& frame, const Mat4& turn, float scale) {
 void apply_scene(const SideContext& context, const SideNode& node) {
   const SideTable table(context.path.string(), "[scene]", node, {"unit", "up"});
   float scale = 1;
-  if (const auto unit = table.text("unit")) {
-    const Unit* row = nullptr;
-    for (const Unit& known : kUnits)
-      if (known.name == *unit) row = &known;
-    if (row == nullptr) table.fail("unit", "'" + *unit + "' is unknown", "mm, cm, m, inch, foot");
-    scale = static_cast<float>(row->metres);
-  }
+  if (const auto unit = table.text("unit"))
+    scale = static_cast<float>(table.row("unit", *unit, kUnits).metres);
   Mat4 turn(1);
   if (const auto up = table.text("up")) {
     if (*up != "y" && *up != "z") table.fail("up", "'" + *up + "' is unknown", "y, z");

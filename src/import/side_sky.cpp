@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
-#include "core/text.h"
 #include "image/io.h"
 #include "import/import.h"
 #include "import/side_parts.h"
@@ -17,15 +16,6 @@ Image read_sky(const SideContext& context, const SideTable& table, const std::st
   } catch (const Error& e) {
     table.fail("file", e.what(), "a lat-long .hdr, .exr or 8-bit picture");
   }
-}
-
-const SkyKind& find_kind(const SideTable& table, const std::string& name) {
-  std::vector<std::string> names;
-  for (const SkyKind& kind : sky_kinds()) {
-    if (kind.name == name) return kind;
-    names.emplace_back(kind.name);
-  }
-  table.fail("kind", "'" + name + "' is unknown", join(names, ", ") + ", file");
 }
 
 /// A sky by formula. @param sun  where the side file has one
@@ -120,7 +110,7 @@ void apply_sky(const SideContext& context, const SideNode& node, const std::opti
     if (!file) table.fail("file", "is missing", "a lat-long .hdr, .exr or 8-bit picture");
     sky.image = read_sky(context, table, *file);
   } else if (!kind.empty()) {
-    sky.image = make_sky(table, find_kind(table, kind), sun);
+    sky.image = make_sky(table, table.row("kind", kind, sky_kinds(), ", file"), sun);
   } else if (const auto level = table.not_negative("luminance")) {
     light.intensity *= static_cast<float>(*level);
   } else {

@@ -55,6 +55,18 @@ class SideTable {
   /// `color` or `kelvin`, brought to luminance 1.
   std::optional<Rgb> lamp_color() const;
 
+  /// The row of that name in an explicit table. @param more  choices that are no rows
+  template <class Rows>
+  const auto& row(std::string_view key, const std::string& name, const Rows& rows,
+                  const std::string& more = {}) const {
+    std::string allowed;
+    for (const auto& row : rows) {
+      if (row.name == name) return row;
+      allowed += (allowed.empty() ? "" : ", ") + std::string(row.name);
+    }
+    fail(key, "'" + name + "' is unknown", allowed + more);
+  }
+
   [[noreturn]] void fail(std::string_view key, const std::string& what,
                          const std::string& allowed = {}) const;
 

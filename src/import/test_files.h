@@ -15,6 +15,7 @@
 #include "core/progress.h"
 #include "core/test_folder.h"
 #include "import/import.h"
+#include "import/uri.h"
 
 namespace sconce {
 
@@ -56,18 +57,6 @@ inline float flat_area(const Mesh& mesh) {
   return area;
 }
 
-inline std::string base64(const std::vector<unsigned char>& bytes) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned v = 0;
-    for (std::size_t k = 0; k < 3; ++k) v = (v << 8) | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? digits[(v >> (18 - 6 * k)) & 63u] : '=';
-  }
-  return out;
-}
-
 /// Buffers, views and accessors put together; the rest of the JSON is the test's.
 class GltfBuilder {
  public:
@@ -95,7 +84,8 @@ class GltfBuilder {
 
   /// The file; `rest` holds further members of the root, without the outer braces.
   std::string json(const std::string& rest, const std::string& uri = {}) const {
-    const std::string where = uri.empty() ? "data:application/octet-stream;base64," + base64(bytes_) : uri;
+    const std::string where =
+        uri.empty() ? "data:application/octet-stream;base64," + encode_base64(bytes_) : uri;
     return "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":" + std::to_string(bytes_.size()) +
            ",\"uri\":\"" + where + "\"}],\"bufferViews\":[" + views_ + "],\"accessors\":[" + accessors_ +
            "]" + (rest.empty() ? "" : ",") + rest + "}";

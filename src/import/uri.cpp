@@ -2,6 +2,8 @@
 #include "import/uri.h"
 
 #include <cctype>
+#include <cstdint>
+#include <system_error>
 
 #include "core/error.h"
 
@@ -68,6 +70,17 @@ DataUri decode_data_uri(std::string_view uri, const std::string& where) {
   return out;
 }
 
+std::string encode_base64(std::span<const unsigned char> bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t v = 0;
+    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[v >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
 std::string percent_decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,6 +95,11 @@ std::string percent_decoded(std::string_view text) {
     out += text[i];
   }
   return out;
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code ec;
+  return std::filesystem::is_regular_file(path, ec);
 }
 
 bool is_lfs_pointer(std::string_view bytes) {
