@@ -118,7 +118,7 @@ Difference difference(const std::string& with, const std::string& without, const
 }
 
 test::Outcome run(const std::vector<std::string>& arguments) {
-  return test::run_program(OSG_RADIOSITY, arguments, "timeout 300 xvfb-run -a -s '-screen 0 640x480x24'");
+  return test::run_program(OSG_RADIOSITY, arguments, test::with_display("640x480", 300));
 }
 
 TEST(OpenSceneGraph, BouncesAreThoseOfPaths) {

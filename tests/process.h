@@ -40,6 +40,12 @@ inline Outcome run_program(const std::string& program, const std::vector<std::st
   return outcome;
 }
 
+/// The prefix that gives a program a display of its own. @param size  e.g. "900x560"
+inline std::string with_display(const std::string& size, int seconds) {
+  return shell_quoted(SCONCE_SOURCE_DIR "/tests/with_display.sh") + " " + size + " timeout " +
+         std::to_string(seconds);
+}
+
 inline Outcome run_sconce(const std::vector<std::string>& args, const std::string& prefix = {}) {
   return run_program(SCONCE_PROGRAM, args, prefix);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window, driven by scripts on a display of its own (xvfb-run); its pictures against the CPU's.
+// The window, driven by scripts on a display of its own; its pictures against the CPU's.
 #include <gtest/gtest.h>
 
 #include "core/files.h"
@@ -25,7 +25,7 @@ class ViewTest : public testing::Test {
   test::Outcome view(const std::string& script, const std::string& input = "x.sconce") {
     folder_.write("script.txt", script);
     return test::run_sconce({"view", path(input), "--script", path("script.txt"), "--size", "900x560"},
-                            "timeout 100 xvfb-run -a -s '-screen 0 900x560x24'");
+                            test::with_display("900x560", 100));
   }
   Image8 png(const std::string& name) const {
     const std::string bytes = read_file(path(name));
