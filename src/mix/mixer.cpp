@@ -74,9 +74,11 @@ void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<s
                              rows = std::min(band_rows, sum.height - first);
                    float* to = &sum.data[static_cast<std::size_t>(first) * row];
                    if (clear) std::fill_n(to, row * static_cast<std::size_t>(rows), 0.0f);
+                   std::vector<Weighted> terms;
                    for (std::size_t i = 0; i < textures.size(); ++i)
-                     add_weighted(textures[i]->tables, textures[i]->pages[page], first, rows, weights[i],
-                                  textures[i]->layout.encoding.luminance, to);
+                     terms.push_back({textures[i]->tables, textures[i]->pages[page], weights[i],
+                                      textures[i]->layout.encoding.luminance});
+                   add_weighted(terms, first, rows, to);
                  });
   }
 }

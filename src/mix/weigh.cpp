@@ -12,6 +12,31 @@
 
 #include "mix/weigh.h"
 
+#ifndef SCONCE_MIX_RUN
+#define SCONCE_MIX_RUN
+namespace sconce {
+
+/// Codes of a texture from some row on.
+struct Run {
+  const WeighTables* tables;
+  std::array<const uint8_t*, 2> planes;
+  std::array<Rgb, 4> weights;  ///< gains divided out
+  std::size_t groups, texel_bytes;
+  bool luminance;
+
+  std::span<const Rgb> used() const { return {weights.data(), groups}; }
+  bool goes_with(const Run& other) const {
+    return !luminance && !other.luminance && tables->kind == other.tables->kind;
+  }
+};
+
+/// Textures that one pass over the sum adds: the sum is read and written a quarter as often, and each stream
+/// is still foreseen.
+inline constexpr std::size_t kTogether = 4;
+
+}  // namespace sconce
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace sconce::HWY_NAMESPACE {
 
@@ -31,16 +56,19 @@ inline V look_up(const std::array<float, 256>& table, hn::Vec<Ints> code) {
 
 /// A vector of single channels at gain 1, from the i-th on.
 struct Load32 {
+  explicit Load32(const Run& run) : at(reinterpret_cast<const float*>(run.planes[0])) {}
   const float* at;
   V operator()(std::size_t i) const { return hn::LoadU(Floats(), at + i); }
 };
 struct Load16 {
+  explicit Load16(const Run& run) : at(reinterpret_cast<const hwy::float16_t*>(run.planes[0])) {}
   const hwy::float16_t* at;
   V operator()(std::size_t i) const {
     return hn::PromoteTo(Floats(), hn::LoadU(hn::Rebind<hwy::float16_t, Floats>(), at + i));
   }
 };
 struct LoadTable {
+  explicit LoadTable(const Run& run) : at(run.planes[0]), tables(*run.tables) {}
   const uint8_t* at;
   const WeighTables& tables;
   V operator()(std::size_t i) const {
@@ -48,6 +76,7 @@ struct LoadTable {
   }
 };
 struct LoadPair {
+  explicit LoadPair(const Run& run) : high(run.planes[0]), low(run.planes[1]), tables(*run.tables) {}
   const uint8_t *high, *low;
   const WeighTables& tables;
   V operator()(std::size_t i) const {
@@ -59,19 +88,25 @@ struct LoadPair {
   }
 };
 
-/// Interleaved colours; weights repeat every three values, so three vectors hold whole repetitions.
-template <class Load>
-void add_colours(const Load& load, std::size_t texels, const Rgb& weight, float* sum) {
+/// Interleaved colours of K textures in one pass over the sum; weights repeat every three values, so three
+/// vectors hold whole repetitions.
+template <class Load, std::size_t K>
+void add_colours(const std::array<Load, K>& loads, std::size_t texels, const Run* runs, float* sum) {
   const Floats d;
   const std::size_t n = hn::Lanes(d);
-  HWY_ALIGN float pattern[3 * hn::MaxLanes(Floats())];
-  for (std::size_t i = 0; i < 3 * n; ++i)
-    pattern[i] = i % 3 == 0 ? weight.r : i % 3 == 1 ? weight.g : weight.b;
-  const V w[] = {hn::Load(d, pattern), hn::Load(d, pattern + n), hn::Load(d, pattern + 2 * n)};
+  HWY_ALIGN float pattern[K][3 * hn::MaxLanes(Floats())];
+  for (std::size_t t = 0; t < K; ++t)
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+      const Rgb& weight = runs[t].weights[0];
+      pattern[t][i] = i % 3 == 0 ? weight.r : i % 3 == 1 ? weight.g : weight.b;
+    }
   for (std::size_t i = 0; i < 3 * texels; i += 3 * n)
     for (std::size_t k = 0; k < 3; ++k) {
       float* to = sum + i + k * n;
-      hn::StoreU(hn::Add(hn::LoadU(d, to), hn::Mul(w[k], load(i + k * n))), d, to);
+      V v = hn::LoadU(d, to);
+      for (std::size_t t = 0; t < K; ++t)
+        v = hn::Add(v, hn::Mul(hn::Load(d, &pattern[t][k * n]), loads[t](i + k * n)));
+      hn::StoreU(v, d, to);
     }
 }
 
@@ -99,8 +134,10 @@ void add_luminances(const Load& load, std::size_t texels, std::span<const Rgb> w
 }
 
 /// Three mantissas and an exponent in four bytes.
-void add_shared(const uint8_t* codes, const WeighTables& tables, std::size_t texels, const Rgb& weight,
-                float* sum) {
+void add_shared(const Run& run, std::size_t texels, float* sum) {
+  const uint8_t* codes = run.planes[0];
+  const WeighTables& tables = *run.tables;
+  const Rgb& weight = run.weights[0];
   const Floats d;
   const hn::RebindToUnsigned<Floats> u;
   const auto byte = hn::Set(u, 255u);
@@ -119,26 +156,36 @@ void add_shared(const uint8_t* codes, const WeighTables& tables, std::size_t tex
   }
 }
 
-/// @param planes   the first texel's codes in each plane
-/// @param texels   whole vectors of them
-/// @param weights  gains divided out
-void add_vectors(const WeighTables& tables, std::span<const std::byte* const> planes, std::size_t texels,
-                 std::span<const Rgb> weights, bool luminance, float* sum) {
-  const auto add = [&](const auto& load) {
-    luminance ? add_luminances(load, texels, weights, sum) : add_colours(load, texels, weights[0], sum);
+template <class Load, std::size_t K>
+std::array<Load, K> loads_of(const Run* runs) {
+  return [&]<std::size_t... T>(std::index_sequence<T...>) {
+    return std::array<Load, K>{Load(runs[T])...};
+  }(std::make_index_sequence<K>());
+}
+
+/// @param runs    textures of one kind, all of colours or a single one
+/// @param texels  whole vectors of them
+void add_vectors(std::span<const Run> runs, std::size_t texels, float* sum) {
+  const Run& first = runs.front();
+  const auto add = [&]<class Load>(std::type_identity<Load>) {
+    if (first.luminance) return add_luminances(Load(first), texels, first.used(), sum);
+    std::size_t i = 0;
+    for (; i + kTogether <= runs.size(); i += kTogether)
+      add_colours(loads_of<Load, kTogether>(&runs[i]), texels, &runs[i], sum);
+    for (; i < runs.size(); ++i) add_colours(loads_of<Load, 1>(&runs[i]), texels, &runs[i], sum);
   };
-  const auto* bytes = reinterpret_cast<const uint8_t*>(planes[0]);
-  switch (tables.kind) {
+  switch (first.tables->kind) {
     case WeighTables::Kind::f32:
-      return add(Load32{reinterpret_cast<const float*>(bytes)});
+      return add(std::type_identity<Load32>());
     case WeighTables::Kind::f16:
-      return add(Load16{reinterpret_cast<const hwy::float16_t*>(bytes)});
+      return add(std::type_identity<Load16>());
     case WeighTables::Kind::table:
-      return add(LoadTable{bytes, tables});
+      return add(std::type_identity<LoadTable>());
     case WeighTables::Kind::pair:
-      return add(LoadPair{bytes, reinterpret_cast<const uint8_t*>(planes[1]), tables});
+      return add(std::type_identity<LoadPair>());
     case WeighTables::Kind::shared:
-      return add_shared(bytes, tables, texels, weights[0], sum);
+      for (const Run& run : runs) add_shared(run, texels, sum);
+      return;
     case WeighTables::Kind::none:
       break;
   }
@@ -158,37 +205,51 @@ namespace sconce {
 HWY_EXPORT(add_vectors);
 HWY_EXPORT(lanes);
 
-void add_weighted(const WeighTables& tables, const EncodedImage& texture, int first, int rows,
-                  std::span<const Rgb> weights, bool luminance, float* sum) {
-  const auto width = static_cast<std::size_t>(texture.width), texels = width * static_cast<std::size_t>(rows);
-  std::array<Rgb, 4> scaled;
-  for (std::size_t c = 0; c < weights.size(); ++c) scaled[c] = weights[c] / texture.gain[c];
+namespace {
 
+Run run_from(const Weighted& term, int first) {
+  const EncodedImage& texture = term.texture;
+  Run run{&term.tables, {}, {}, term.weights.size(), 0, term.luminance};
+  for (std::size_t c = 0; c < term.weights.size(); ++c) run.weights[c] = term.weights[c] / texture.gain[c];
   const auto count = static_cast<std::size_t>(texture.encoding->planes);
+  const auto width = static_cast<std::size_t>(texture.width);
   const std::size_t plane = texture.data.size() / count;
-  const std::size_t texel_bytes = plane / (width * static_cast<std::size_t>(texture.height));
-  std::array<const std::byte*, 2> planes{};
+  run.texel_bytes = plane / (width * static_cast<std::size_t>(texture.height));
   for (std::size_t p = 0; p < count; ++p)
-    planes[p] = texture.data.data() + p * plane + static_cast<std::size_t>(first) * width * texel_bytes;
+    run.planes[p] = reinterpret_cast<const uint8_t*>(texture.data.data()) + p * plane +
+                    static_cast<std::size_t>(first) * width * run.texel_bytes;
+  return run;
+}
 
+}  // namespace
+
+void add_weighted(std::span<const Weighted> terms, int first, int rows, float* sum) {
+  if (terms.empty()) return;
+  std::vector<Run> runs;
+  for (const Weighted& term : terms) runs.push_back(run_from(term, first));
+  const std::size_t texels =
+      static_cast<std::size_t>(terms.front().texture.width) * static_cast<std::size_t>(rows);
   const std::size_t vector = HWY_DYNAMIC_DISPATCH(lanes)(), rest = texels % vector, whole = texels - rest;
-  const auto add = [&](const std::array<const std::byte*, 2>& at, std::size_t n, float* to) {
-    HWY_DYNAMIC_DISPATCH(add_vectors)
-    (tables, {at.data(), count}, n, {scaled.data(), weights.size()}, luminance, to);
+  const auto add = [&](std::size_t n, float* to) {
+    for (std::size_t i = 0, next = 0; i < runs.size(); i = next) {
+      for (next = i + 1; next < runs.size() && runs[next].goes_with(runs[i]); ++next) continue;
+      HWY_DYNAMIC_DISPATCH(add_vectors)({&runs[i], next - i}, n, to);
+    }
   };
-  if (whole > 0) add(planes, whole, sum);
+  if (whole > 0) add(whole, sum);
   if (rest == 0) return;
   // The last texels go through copies as long as a vector.
-  std::array<std::vector<std::byte>, 2> codes;
-  std::array<const std::byte*, 2> at{};
-  for (std::size_t p = 0; p < count; ++p) {
-    codes[p].resize(vector * texel_bytes);
-    std::memcpy(codes[p].data(), planes[p] + whole * texel_bytes, rest * texel_bytes);
-    at[p] = codes[p].data();
-  }
+  std::vector<std::vector<uint8_t>> codes;
+  for (Run& run : runs)
+    for (const uint8_t*& plane : run.planes) {
+      if (!plane) continue;
+      codes.emplace_back(vector * run.texel_bytes);
+      std::memcpy(codes.back().data(), plane + whole * run.texel_bytes, rest * run.texel_bytes);
+      plane = codes.back().data();
+    }
   std::vector<float> tail(3 * vector);
   std::copy_n(sum + 3 * whole, 3 * rest, tail.begin());
-  add(at, vector, tail.data());
+  add(vector, tail.data());
   std::copy_n(tail.begin(), 3 * rest, sum + 3 * whole);
 }
 

@@ -25,14 +25,19 @@ struct WeighTables {
   explicit WeighTables(const Encoding& encoding);
 };
 
-/// sum += weight * decoded, for rows [first, first + rows) of the texture.
-/// @param tables     of its encoding
-/// @param weights    one where the texture holds colours; else one per channel, each times its group's colour
-/// @param luminance  the texture's channels are groups' luminances
-/// @param sum        3 * width * rows floats
-/// @pre tables.kind != none
-void add_weighted(const WeighTables& tables, const EncodedImage& texture, int first, int rows,
-                  std::span<const Rgb> weights, bool luminance, float* sum);
+/// A texture and what each of its groups counts.
+struct Weighted {
+  const WeighTables& tables;  ///< of its encoding; not of kind none
+  const EncodedImage& texture;
+  std::span<const Rgb>
+      weights;     ///< one where it holds colours; else one per channel, each times its group's colour
+  bool luminance;  ///< its channels are groups' luminances
+};
+
+/// sum += weight * decoded, one texture after the other, for rows [first, first + rows) of them.
+/// @param terms  textures of one size
+/// @param sum    3 * width * rows floats
+void add_weighted(std::span<const Weighted> terms, int first, int rows, float* sum);
 
 /// The same plainly, by Encoding::decode: what the fast one is tested and measured against.
 void add_weighted_plain(const EncodedImage& texture, int first, int rows, std::span<const Rgb> weights,
