@@ -3,7 +3,7 @@
 // room, lit by its light model.
 #include <gtest/gtest.h>
 
-#include "../examples/osg/room.h"
+#include "../examples/room/room.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
 #include "image/io.h"

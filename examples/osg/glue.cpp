@@ -146,26 +146,18 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
   scene.setNodeMask(kScene);
   viewer.getCamera()->setCullMask(kScene);
   viewer.getCamera()->getOrCreateStateSet()->addUniform(new osg::Uniform("sconce_in_faces", 0.0f));
-  world_ = make_world(scene_);
-  tracer_ = std::make_unique<Tracer>(scene_, world_);
-  host_.draw = [this](const DrawRequest& request) { return draw(request); };
-
-  AtlasParams size;
-  size.density = 12;
-  const TracedScene traced{scene_, world_, *tracer_};
-  const Atlas atlas = make_atlas(scene_, world_, *tracer_, size);
-  TextureSpace space = atlas_space(atlas);
-  const Vec2 whole(static_cast<float>(space.width), static_cast<float>(space.height));
-  for (std::size_t i = 0; i < space.triangles.size(); ++i)
+  map_ = std::make_unique<AmbientMap>(std::move(scene_), 12.0f);
+  const auto coordinates = map_->coordinates();
+  for (std::size_t t = 0; t < coordinates.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const uint32_t t = space.triangles[i];
-      const Vec2 uv = space.corners[i][c] / whole;
-      (*parts_[world_.instances[t].value].lightmap)[3 * world_.source_triangles[t] + c].set(uv.x, uv.y);
+      const Vec2& uv = coordinates[t][c];
+      (*parts_[map_->world().instances[t].value].lightmap)[3 * map_->world().source_triangles[t] + c].set(
+          uv.x, uv.y);
     }
   for (Part& part : parts_) part.lightmap->dirty();
 
   osg::ref_ptr<osg::Image> image = new osg::Image;
-  image->allocateImage(space.width, space.height, 1, GL_RGB, GL_FLOAT);
+  image->allocateImage(map_->space().width, map_->space().height, 1, GL_RGB, GL_FLOAT);
   image->setInternalTextureFormat(GL_RGB32F_ARB);
   ambient_map_->setImage(image);
   ambient_map_->setResizeNonPowerOfTwoHint(false);
@@ -173,15 +165,13 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
     ambient_map_->setFilter(filter, osg::Texture::LINEAR);
 
   TransferParams params;
-  params.gather = 4096, params.rays = 256, params.lights = 128, params.keep_sums = true;
-  detection_ = detect_materials(scene_, world_, host_);
-  radiosity_ = std::make_unique<RealtimeRadiosity>(traced, texel_receivers(traced, atlas), std::move(space),
-                                                   host_, detection_, params);
+  params.gather = 4096, params.rays = 256, params.lights = 128;
+  map_->start({[this](const DrawRequest& request) { return draw(request); }}, params);
 }
 
 FrameReport OsgRadiosity::update() {
-  FrameReport report = radiosity_->update();
-  const std::span<const Rgb> ambient = radiosity_->ambient();
+  FrameReport report = map_->update();
+  const std::span<const Rgb> ambient = map_->texels();
   std::copy_n(&ambient[0].r, 3 * ambient.size(), reinterpret_cast<float*>(ambient_map_->getImage()->data()));
   ambient_map_->getImage()->dirty();
   return report;
@@ -218,7 +208,7 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
     for (std::size_t c = 0; c < 3; ++c) {
       const uint32_t t = request.triangles[i];
       const Vec2& corner = request.corners[i][c];
-      (*parts_[world_.instances[t].value].places)[3 * world_.source_triangles[t] + c].set(
+      (*parts_[map_->world().instances[t].value].places)[3 * map_->world().source_triangles[t] + c].set(
           corner.x / static_cast<float>(request.width), corner.y / static_cast<float>(request.height));
     }
   for (Part& part : parts_) part.places->dirty();

@@ -8,7 +8,7 @@
 #include <osg/Texture2D>
 #include <osgViewer/Viewer>
 
-#include "detect/realtime.h"
+#include "detect/ambient_map.h"
 
 class OsgRadiosity {
  public:
@@ -22,7 +22,7 @@ class OsgRadiosity {
 
   /// Reads the direct light and brings the ambient map up to date.
   sconce::FrameReport update();
-  const sconce::Detection& detection() const { return detection_; }
+  const sconce::Detection& detection() const { return map_->detection(); }
   osg::Texture2D* ambient_map() { return ambient_map_; }
 
  private:
@@ -45,11 +45,7 @@ class OsgRadiosity {
   SetLights set_lights_;
   std::vector<Part> parts_;  ///< per instance of the scene
   std::map<std::pair<int, int>, Target> targets_;
-  sconce::Scene scene_;
-  sconce::World world_;
-  std::unique_ptr<sconce::Tracer> tracer_;
-  sconce::HostRenderer host_;
-  sconce::Detection detection_;
-  std::unique_ptr<sconce::RealtimeRadiosity> radiosity_;
+  sconce::Scene scene_;  ///< while it is collected
+  std::unique_ptr<sconce::AmbientMap> map_;
   osg::ref_ptr<osg::Texture2D> ambient_map_ = new osg::Texture2D;
 };

@@ -8,8 +8,7 @@
 
 #include "core/error.h"
 #include "glue.h"
-#include "image/io.h"
-#include "room.h"
+#include "room/report.h"
 
 using namespace sconce;
 
@@ -80,20 +79,13 @@ class Program {
     picture("without", false);
     OsgRadiosity radiosity(viewer_, *root_, *scene_, [this](const DrawRequest& request) { light(request); });
     scene_->getOrCreateStateSet()->setTextureAttributeAndModes(1, radiosity.ambient_map());
-    const Detection& found = radiosity.detection();
-    for (std::size_t m = 0; m < found.materials.size(); ++m) {
-      const SurfaceResponse& r = found.materials[m].response;
-      fmt::print("material {}: reflectance {:.4f} {:.4f} {:.4f}, emission {:.3f} {:.3f} {:.3f}\n", m,
-                 r.reflectance.r, r.reflectance.g, r.reflectance.b, r.emission.r, r.emission.g, r.emission.b);
-    }
-    for (const std::string& finding : found.findings) fmt::print("{}\n", finding);
-    fmt::print("detected in {} drawings, {:.0f} ms\n", found.cost.draws, found.cost.milliseconds);
-    report(radiosity.update());
+    room::print(radiosity.detection());
+    room::print(radiosity.update());
     picture("with", true);
     picture("direct", false);
     // The program changes its light model while it runs. Nothing is made again.
     lamp_.falloff = 1;
-    report(radiosity.update());
+    room::print(radiosity.update());
     picture("changed", true);
     picture("changed-direct", false);
   }
@@ -150,31 +142,11 @@ class Program {
     set("white_card", request.white_card ? 1.0f : 0.0f);
   }
 
-  void report(const FrameReport& frame) const {
-    if (!frame) fmt::print("without global illumination: {}\n", frame.fault);
-    fmt::print("frame: {:.1f} ms in the renderer, {:.1f} ms to solve\n", frame.capture.milliseconds,
-               frame.solve_milliseconds);
-  }
-
-  /// OUT-NAME.exr as it is, and OUT-NAME.png in sRGB.
   void picture(const std::string& name, bool ambient) {
     show_lamp();
     set("ambient_on", ambient ? 1.0f : 0.0f);
     viewer_.frame();
-    Image linear = Image::rgb(room::kWidth, room::kHeight);
-    Image8 codes;
-    codes.width = room::kWidth, codes.height = room::kHeight, codes.channels = 3;
-    const auto* rgba = reinterpret_cast<const float*>(screen_->data());
-    for (int y = 0; y < room::kHeight; ++y)
-      for (int x = 0; x < room::kWidth; ++x) {
-        const float* v = rgba + 4 * ((room::kHeight - 1 - y) * room::kWidth + x);
-        linear.set_rgb(x, y, Rgb(v[0], v[1], v[2]));
-        for (int c = 0; c < 3; ++c)
-          codes.data.push_back(
-              static_cast<unsigned char>(std::lround(255 * linear_to_srgb(std::clamp(v[c], 0.0f, 1.0f)))));
-      }
-    write_exr(file_ + "-" + name + ".exr", linear, PixelType::full);
-    write_png(file_ + "-" + name + ".png", codes);
+    room::write(file_ + "-" + name, reinterpret_cast<const float*>(screen_->data()), true);
   }
 
   std::string file_;

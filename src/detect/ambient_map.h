@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that a foreign renderer needs for an ambient term in a texture: the atlas of its scene, its materials,
+// its radiosity.
+#pragma once
+
+#include "detect/realtime.h"
+#include "receive/atlas.h"
+
+namespace sconce {
+
+class AmbientMap {
+ public:
+  /// Unwraps the scene into one texture.
+  /// @param density  texels per metre
+  AmbientMap(Scene scene, float density);
+
+  const World& world() const { return world_; }
+  const TracedScene& traced() const { return traced_; }
+  /// Where the faces lie in the texture, in texels, and its size; rows go up.
+  const TextureSpace& space() const { return space_; }
+  /// Per triangle of the world, its corners' texture coordinates, 0 to 1; of a triangle without light, 0.
+  std::vector<std::array<Vec2, 3>> coordinates() const;
+
+  /// Asks the renderer for its materials and follows rays, once.
+  /// @param params  their sums are kept whatever they say: even light stays exact
+  /// @throws Error, UsageError, Cancelled as detect_materials() and make_operator()
+  void start(const HostRenderer& host, TransferParams params, const Progress& progress = {});
+
+  /// As RealtimeRadiosity::update(). @pre started
+  FrameReport update() { return radiosity_->update(); }
+  /// Height x width, to be multiplied by the surface's own reflectance and added.
+  std::span<const Rgb> texels() const { return radiosity_->ambient(); }
+  const Detection& detection() const { return detection_; }
+  RealtimeRadiosity& radiosity() { return *radiosity_; }
+
+ private:
+  Scene scene_;
+  World world_;
+  Tracer tracer_;
+  TracedScene traced_;
+  Atlas atlas_;
+  TextureSpace space_;
+  Detection detection_;
+  std::unique_ptr<RealtimeRadiosity> radiosity_;
+};
+
+}  // namespace sconce
