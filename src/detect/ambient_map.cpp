@@ -11,6 +11,8 @@ Atlas one_atlas(const TracedScene& traced, float density) {
   return make_atlas(traced.scene, traced.world, traced.tracer, params);
 }
 
+constexpr int kRings = 3;  // of texels around a face
+
 }  // namespace
 
 AmbientMap::AmbientMap(Scene scene, float density)
@@ -34,6 +36,28 @@ void AmbientMap::start(const HostRenderer& host, TransferParams params, const Pr
   detection_ = detect_materials(scene_, world_, host);
   radiosity_ = std::make_unique<RealtimeRadiosity>(traced_, texel_receivers(traced_, atlas_), space_, host,
                                                    detection_, params, progress);
+  reflectance_.assign(space_.pixels(), Rgb());
+  std::vector<std::size_t> known;
+  for (std::size_t f = 0; f < space_.triangles.size(); ++f)
+    each_pixel(space_, f, [&](std::size_t pixel) {
+      reflectance_[pixel] = detection_.of(world_, space_.triangles[f]).reflectance;
+      known.push_back(pixel);
+    });
+  std::vector<uint8_t> done = space_.covered;
+  const auto width = static_cast<std::size_t>(space_.width);
+  for (int ring = 0; ring < kRings; ++ring)
+    for (std::size_t i = 0, end = known.size(); i < end; ++i)
+      for (const std::size_t to : {known[i] - 1, known[i] + 1, known[i] - width, known[i] + width})
+        if (to < done.size() && !done[to]) {  // below 0 is beyond the end
+          done[to] = 1, reflectance_[to] = reflectance_[known[i]];
+          known.push_back(to);
+        }
+}
+
+std::vector<Rgb> AmbientMap::reflected() const {
+  std::vector<Rgb> light(texels().begin(), texels().end());
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] *= reflectance_[i];
+  return light;
 }
 
 }  // namespace sconce

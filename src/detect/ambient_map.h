@@ -30,6 +30,9 @@ class AmbientMap {
   FrameReport update() { return radiosity_->update(); }
   /// Height x width, to be multiplied by the surface's own reflectance and added.
   std::span<const Rgb> texels() const { return radiosity_->ambient(); }
+  /// The same times the reflectance that was detected, of the material or the face: for renderers that can
+  /// only add. Texels around a face have its reflectance, so that filtering is right.
+  std::vector<Rgb> reflected() const;
   const Detection& detection() const { return detection_; }
   RealtimeRadiosity& radiosity() { return *radiosity_; }
 
@@ -42,6 +45,7 @@ class AmbientMap {
   TextureSpace space_;
   Detection detection_;
   std::unique_ptr<RealtimeRadiosity> radiosity_;
+  std::vector<Rgb> reflectance_;  ///< per texel
 };
 
 }  // namespace sconce
