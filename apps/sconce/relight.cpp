@@ -151,6 +151,10 @@ int run_relight(int argc, const char* const* argv) {
   picture.declare(options);
   options.option("--patches", &device.patches, "small lamps that OpenGL draws a lamp with an area as");
   options.option("--shadow-map", &device.shadow_side, "texels of the side of OpenGL's shadow maps");
+  options.option("--terms-per-pass", &device.terms_per_pass,
+                 "terms of a light field that OpenGL lights in one pass; 0 = all");
+  options.flag("--srgbe", &device.srgbe,
+               "sum these passes in 8 bits with a shared exponent, for devices without float buffers");
   options.option("-o,--output", &output,
                  "PNG (toned), or OpenEXR (linear, cd/m2; exposed only when asked for); - is PNG on stdout "
                  "(default: NAME.relit.png)");

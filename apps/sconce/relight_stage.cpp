@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "gpu/direct_light.h"
+#include "gpu/near_lights.h"
 #include "gpu/pixel_indirect.h"
 #include "gpu/transfer.h"
 #include "gpu/view.h"
@@ -42,24 +43,27 @@ std::string place(uint32_t number, int width) {
 class GlRelightStage : public RelightStage {
  public:
   GlRelightStage(const RelightJob& job, std::unique_ptr<gpu::Context> context,
-                 std::vector<gpu::LampShader> lamps)
+                 std::vector<gpu::LampShader> shaders, const MovedLamps& lamps, const RelightDevice& device)
       : job_(job),
         context_(std::move(context)),
         view_(*context_, job.view.shown()),
-        direct_(*context_, view_.geometry(), job.view.world().bounds, std::move(lamps)),
+        direct_(*context_, view_.geometry(), job.view.world().bounds, std::move(shaders)),
+        near_(*context_, view_.geometry(), job.view.world().bounds, lamps.lamps(), lamps.chosen(),
+              {std::max(64, device.shadow_side / 4), device.terms_per_pass, device.srgbe}),
         transfer_(*context_, job.op) {
     using Clock = std::chrono::steady_clock;
     const gpu::Buffer points(*context_, job.op.lit, "the operator's cloud");
     glFinish();
     const auto start = Clock::now();
     direct_.light_cloud(points, job.op.slots(), job.op.points_per_slot, transfer_.exitance());
+    near_.light_cloud(points, job.op.slots(), job.op.points_per_slot, transfer_.exitance());
     glFinish();
     const auto lit = Clock::now();
     transfer_.apply();
     glFinish();
     seconds_.direct = std::chrono::duration<double>(lit - start).count();
     seconds_.indirect = std::chrono::duration<double>(Clock::now() - lit).count();
-    added_.push_back(&direct_);
+    added_ = {&direct_, &near_};
     if (job.op.kind == OperatorReceivers::pixels) {
       pixels_ = std::make_unique<gpu::PixelIndirect>(*context_, job.op, transfer_.illuminance(),
                                                      job.view.world().bounds.diagonal());
@@ -92,6 +96,7 @@ class GlRelightStage : public RelightStage {
   std::unique_ptr<gpu::Context> context_;
   gpu::View view_;
   gpu::DirectLight direct_;
+  gpu::NearLights near_;
   gpu::Transfer transfer_;
   std::unique_ptr<gpu::PixelIndirect> pixels_;
   std::vector<gpu::AddedLight*> added_;
@@ -107,6 +112,8 @@ void RelightDevice::check() const {
     throw UsageError("option '--patches'", std::to_string(patches), "1 to 1024");
   if (shadow_side < 64 || shadow_side > 16384)
     throw UsageError("option '--shadow-map'", fmt::format("{} texels", shadow_side), "64 to 16384");
+  if (terms_per_pass < 0)
+    throw UsageError("option '--terms-per-pass'", std::to_string(terms_per_pass), "0 (all), 1, 2, ...");
 }
 
 std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const RelightDevice& device,
@@ -122,7 +129,7 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
       std::vector<gpu::LampShader> all =
           gpu::lamp_shaders(lamps->lamps(), lamps->chosen(), device.patches, device.shadow_side);
       all.insert(all.end(), job.shaders.begin(), job.shaders.end());
-      return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all));
+      return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all), *lamps, device);
     } catch (const gpu::UnknownLamp&) {
       if (device.name == "gl" || !job.shaders.empty()) throw;
     }

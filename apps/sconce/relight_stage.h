@@ -24,7 +24,9 @@ struct RelightJob {
 struct RelightDevice {
   std::string name = "auto";  ///< auto, cpu, gl
   int patches = 16;           ///< that a lamp with an area is drawn as
-  int shadow_side = 1024;     ///< of a shadow map, texels
+  int shadow_side = 1024;     ///< of a shadow map, texels; patches and terms of light fields: a quarter
+  int terms_per_pass = 0;     ///< gpu::NearLightParams
+  bool srgbe = false;
 
   /// @throws UsageError
   void check() const;

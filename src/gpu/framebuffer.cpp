@@ -29,6 +29,12 @@ Framebuffer::Framebuffer(DepthOnly, const Texture& depths, int layer) : Framebuf
   check();
 }
 
+Framebuffer::Framebuffer(DepthOnly, const Texture& depths) : Framebuffer(depths.params()) {
+  glNamedFramebufferTexture(handle_, GL_DEPTH_ATTACHMENT, depths.handle(), 0);
+  has_depth_ = true;
+  check();
+}
+
 void Framebuffer::attach(GLenum point, const Texture& texture, int layer) const {
   if (texture.params().layers > 0)
     glNamedFramebufferTextureLayer(handle_, point, texture.handle(), 0, layer);

@@ -18,6 +18,8 @@ class Framebuffer {
               std::span<const Texture* const> more = {});
   struct DepthOnly {};
   Framebuffer(DepthOnly, const Texture& depths, int layer);
+  /// All layers of an array: shaders choose theirs.
+  Framebuffer(DepthOnly, const Texture& depths);
   ~Framebuffer() { glDeleteFramebuffers(1, &handle_); }
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;

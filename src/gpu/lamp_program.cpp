@@ -16,6 +16,9 @@ namespace {
 constexpr std::string_view kHead =
 #include "gpu/lamp_head.glsl.h"
     ;
+constexpr std::string_view kFilter =
+#include "gpu/shadow_filter.glsl.h"
+    ;
 constexpr std::string_view kShadow =
 #include "gpu/shadow.glsl.h"
     ;
@@ -34,7 +37,7 @@ std::string whole(std::string_view text, const std::string& given, std::string_v
   out += "#line " + std::to_string(ShaderPart::kFirstLine) + "\n";
   out += text;
   out += "\n";
-  for (const std::string_view more : {std::string_view(given), kShadow, kArriving, end}) out += more;
+  for (const std::string_view more : {std::string_view(given), kFilter, kShadow, kArriving, end}) out += more;
   return out;
 }
 

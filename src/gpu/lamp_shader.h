@@ -44,7 +44,8 @@ class UnknownLamp : public Error {
   using Error::Error;
 };
 
-/// Lamps that the CPU knows: points, spots and suns by themselves, meshes as `patches` small ones each.
+/// Lamps that the CPU knows: points, spots and suns by themselves, meshes as `patches` small ones each. Light
+/// fields have none: NearLights.
 /// @param chosen  number and weight of each
 /// @param side    of their maps; a quarter for patches
 /// @throws UnknownLamp: sky, measured luminaire

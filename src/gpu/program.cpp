@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/program.h"
 
+#include <memory>
 #include <regex>
 #include <vector>
 
@@ -68,23 +69,28 @@ class Shader {
 
 }  // namespace
 
-Program::Program(const std::string& name, std::string_view vertex, std::string_view fragment) : handle_(0) {
-  const Shader v(GL_VERTEX_SHADER, name, vertex), f(GL_FRAGMENT_SHADER, name, fragment);
+Program::Program(const std::string& name, std::initializer_list<std::pair<GLenum, std::string_view>> stages,
+                 const ShaderPart* part)
+    : handle_(0) {
+  std::vector<std::unique_ptr<Shader>> shaders;
+  for (const auto& [stage, text] : stages)
+    shaders.push_back(std::make_unique<Shader>(stage, name, text, part));
   handle_ = glCreateProgram();
-  glAttachShader(handle_, v.handle());
-  glAttachShader(handle_, f.handle());
+  for (const auto& shader : shaders) glAttachShader(handle_, shader->handle());
   link(name);
-  glDetachShader(handle_, v.handle());
-  glDetachShader(handle_, f.handle());
+  for (const auto& shader : shaders) glDetachShader(handle_, shader->handle());
 }
 
-Program::Program(const std::string& name, std::string_view compute, const ShaderPart* part) : handle_(0) {
-  const Shader c(GL_COMPUTE_SHADER, name, compute, part);
-  handle_ = glCreateProgram();
-  glAttachShader(handle_, c.handle());
-  link(name);
-  glDetachShader(handle_, c.handle());
-}
+Program::Program(const std::string& name, std::string_view vertex, std::string_view fragment)
+    : Program(name, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {}
+
+Program::Program(const std::string& name, std::string_view vertex, std::string_view geometry,
+                 std::string_view fragment)
+    : Program(name,
+              {{GL_VERTEX_SHADER, vertex}, {GL_GEOMETRY_SHADER, geometry}, {GL_FRAGMENT_SHADER, fragment}}) {}
+
+Program::Program(const std::string& name, std::string_view compute, const ShaderPart* part)
+    : Program(name, {{GL_COMPUTE_SHADER, compute}}, part) {}
 
 Program::~Program() {
   glDeleteProgram(handle_);

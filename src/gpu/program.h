@@ -3,8 +3,10 @@
 
 #include <epoxy/gl.h>
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/rgb.h"
@@ -33,6 +35,8 @@ class Program {
   /// @param name  what the shaders do, for messages
   /// @throws Error that shows the compiler's message and the line it speaks of
   Program(const std::string& name, std::string_view vertex, std::string_view fragment);
+  Program(const std::string& name, std::string_view vertex, std::string_view geometry,
+          std::string_view fragment);
   /// A compute program.
   /// @param part  of it that is not ours: the error then names that file and its line
   Program(const std::string& name, std::string_view compute, const ShaderPart* part = nullptr);
@@ -67,6 +71,9 @@ class Program {
   std::vector<ActiveUniform> uniforms() const;
 
  private:
+  /// In order of the stages.
+  Program(const std::string& name, std::initializer_list<std::pair<GLenum, std::string_view>> stages,
+          const ShaderPart* part = nullptr);
   GLint at(const char* uniform) const { return glGetUniformLocation(handle_, uniform); }
   void link(const std::string& name) const;
 

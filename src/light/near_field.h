@@ -30,6 +30,7 @@ class NearField {
   float radius() const { return radius_; }  ///< of what the filters reach
 
   /// The lamp for a place so far away: the coarsest whose filters are small seen from there.
+  const NearLamp& finest() const { return levels_.front(); }
   const NearLamp& level(const Vec3& x) const { return levels_[level_index(x)]; }
 
  private:

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp's light field by eq. 14 of Granier, Goesele, Heidrich and Seidel 2003, after gpu/shadow_filter.glsl: every term
+// a textured spot at its filter's centre, with a shadow map of its own. Twin of NearLamp::terms().
+
+uniform isampler2DArray near_sums;  // per term: of E' over all pixels left and below, in codes
+uniform sampler2DArray near_depths;  // per term of this pass
+layout(std430, binding = 6) readonly buffer NearTerms { vec4 near_terms[]; };  // centre on S, m; lux m2 per code
+uniform int near_first, near_count;  // terms of this pass
+uniform bool near_shadows;
+uniform vec3 near_position, near_color;
+uniform mat3 near_frame;  // v * near_frame is v in the luminaire's frame
+uniform float near_distance, near_filter, near_pixel, near_end;  // m; near_end: of the shadow maps
+uniform vec2 near_corner;           // of M's pixels, m
+uniform vec2 near_low, near_texel;  // corner and texels of the shadow maps on M, m
+
+// Mean of E' over a square of M. Differences of sums are whole numbers, so exact.
+float near_mean(int term, vec2 st, float size) {
+  ivec2 pixels = textureSize(near_sums, 0).xy - 1;
+  vec2 at = (st - near_corner) / near_pixel;
+  float reach = 0.5 * max(1.0, size / near_pixel);
+  vec2 low = clamp(at - reach, vec2(0.0), vec2(pixels)), high = clamp(at + reach, vec2(0.0), vec2(pixels));
+  if (any(greaterThanEqual(low, high))) return 0.0;
+  // The first and the last column count by what is covered of them, those between in full; rows likewise.
+  ivec2 first = min(ivec2(low), pixels - 1), last = clamp(ivec2(ceil(high)) - 1, first, pixels - 1);
+  bvec2 one = equal(first, last);
+  vec2 begin = mix(vec2(first + 1) - low, high - low, one), end = mix(high - vec2(last), vec2(0.0), one);
+  int x[4] = int[4](first.x, first.x + 1, max(last.x, first.x + 1), last.x + 1),
+      y[4] = int[4](first.y, first.y + 1, max(last.y, first.y + 1), last.y + 1);
+  float wx[3] = float[3](begin.x, 1.0, end.x), wy[3] = float[3](begin.y, 1.0, end.y);
+  ivec3 below;
+  float sum = 0.0;
+  for (int j = 0; j < 4; ++j) {
+    ivec4 row;
+    for (int i = 0; i < 4; ++i) row[i] = texelFetch(near_sums, ivec3(x[i], y[j], term), 0).r;
+    ivec3 columns = row.yzw - row.xyz;
+    if (j > 0) sum += wy[j - 1] * dot(vec3(columns - below), vec3(wx[0], wx[1], wx[2]));
+    below = columns;
+  }
+  return sum / (4.0 * reach * reach);
+}
+
+// x, n, face: in the luminaire's frame
+float near_visible(int layer, vec2 centre, vec2 st, vec3 x, vec3 n, vec3 face) {
+  mat3 from = mat3(near_texel.x / near_distance, 0.0, 0.0, 0.0, near_texel.y / near_distance, 0.0,
+                   (near_low - centre) / near_distance, -1.0);
+  return sconce_filtered(near_depths, layer, (st - near_low) / near_texel, -x.z, x - vec3(centre, 0.0), from, near_end,
+                         false, n, face);
+}
+
+// e: illuminance, lux, of this pass's terms; always a number.
+bool sconce_arriving(vec3 P, vec3 N, vec3 face, out vec3 e) {
+  vec3 x = (P - near_position) * near_frame, n = N * near_frame, f = face * near_frame;
+  e = vec3(0.0);
+  if (!(x.z < -1e-6)) return true;
+  float depth = -x.z, ratio = near_distance / depth, size = near_filter * abs(1.0 - ratio), sum = 0.0;
+  for (int i = 0; i < near_count; ++i) {
+    vec4 term = near_terms[near_first + i];
+    vec3 to = vec3(term.xy, 0.0) - x;
+    float cosine = dot(to, n), d2 = dot(to, to);
+    if (!(cosine > 0.0) || !(dot(to, f) > 0.0)) continue;
+    vec2 st = term.xy - to.xy * ratio;
+    float value = term.z * near_mean(near_first + i, st, size) * depth * cosine / (d2 * d2);
+    if (value != 0.0 && near_shadows) value *= near_visible(i, term.xy, st, x, n, f);
+    sum += value;
+  }
+  e = near_color * sum;
+  return true;
+}
+
+void sconce_count(uint number) {}
