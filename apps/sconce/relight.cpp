@@ -9,9 +9,9 @@
 #include "core/text.h"
 #include "import/lights.h"
 #include "mix_options.h"
-#include "operator_path.h"
 #include "picture_options.h"
 #include "picture_output.h"
+#include "relight/package_operator.h"
 #include "relight/texel_light.h"
 #include "relight_stage.h"
 #include "shader_lamp.h"
@@ -201,7 +201,7 @@ int run_relight(int argc, const char* const* argv) {
     std::vector<Image> pages = mix_pages(package, lightmap);
     if (const std::vector<MovedGroup> parts = in_part(groups); !parts.empty()) {
       job.bounces = std::make_shared<FoldedBounces>(op);
-      take_share(package, view, op,
+      take_share(package_atlas(package, view), op,
                  lightmap_share(package, view, op, *job.bounces, lamps_at({}, parts, {}), progress), pages);
     }
     const auto stage = make_relight_stage(job, device, progress);

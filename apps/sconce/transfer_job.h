@@ -2,7 +2,7 @@
 // An operator from a package into it.
 #pragma once
 
-#include "operator_path.h"
+#include "relight/package_operator.h"
 #include "picture_options.h"
 #include "relight/precompute.h"
 

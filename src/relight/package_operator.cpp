@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "operator_path.h"
+#include "relight/package_operator.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 
 namespace fs = std::filesystem;
 
-namespace sconce::app {
+namespace sconce {
 
 fs::path operator_path(const fs::path& package, const std::string& camera) {
   return package / kOperatorFolder /
@@ -44,4 +44,4 @@ Operator find_operator(const Package& package, const std::string& camera) {
   return op;
 }
 
-}  // namespace sconce::app
+}  // namespace sconce

@@ -8,7 +8,7 @@
 #include "package/package.h"
 #include "transfer/operator.h"
 
-namespace sconce::app {
+namespace sconce {
 
 /// NAME.sconce/operators/lightmap.bin, or camera-CAMERA.bin.
 std::filesystem::path operator_path(const std::filesystem::path& package, const std::string& camera);
@@ -21,4 +21,4 @@ bool has_operator(const Package& package, const std::string& camera);
 /// the package
 Operator find_operator(const Package& package, const std::string& camera);
 
-}  // namespace sconce::app
+}  // namespace sconce
