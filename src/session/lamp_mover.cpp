@@ -83,20 +83,19 @@ MixSpec LampMover::layers_mix(const MixSpec& mix) const {
 
 void LampMover::add_to(const MixSpec& mix, std::vector<Image>& pages) const {
   MixSpec left = mix;
-  std::vector<Rgb> come(movable_->op.places.size()), go(come.size());
+  std::vector<Rgb> leaves(movable_->op.places.size());
   const std::vector<MovedGroup> groups = taken(left), parts = in_part(groups);
   for (const auto& [lamp, entry] : moved_) {
     const Id<LightGroup> group = movable_->lamps.all()[lamp].group;
     const Rgb weight = mix.weights[group.value];
     const bool stays =
         std::any_of(parts.begin(), parts.end(), [&](const MovedGroup& p) { return p.group == group; });
-    for (std::size_t i = 0; i < come.size(); ++i) {
-      come[i] += weight * entry.now.light[i];
-      if (stays) go[i] += weight * entry.before.light[i];
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      leaves[i] -= weight * entry.now.light[i];
+      if (stays) leaves[i] += weight * entry.before.light[i];
     }
   }
-  if (!parts.empty()) take_share(movable_->atlas, movable_->op, go, pages);
-  add_to_pages(movable_->atlas, movable_->op, come, pages);
+  take_share(movable_->atlas, movable_->op, leaves, pages);
 }
 
 std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved) {
