@@ -8,6 +8,7 @@
 #include "image/io.h"
 #include "package/glb.h"
 #include "process.h"
+#include "scene/lens.h"
 #include "small_scenes.h"
 
 namespace fs = std::filesystem;
@@ -79,12 +80,82 @@ TEST_F(Relight, ALampLeavesItsLayer) {
   EXPECT_NEAR(mean("still.exr") / mean("group.exr"), 1, 0.005);
   EXPECT_EQ(
       run({"diff", file("moved.exr"), file("group.exr"), "--metric", "rmse", "--fail-above", "20%"}).code, 3);
-  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "nobody=0,1,0"})).code, 2);
+  const test::Outcome unknown = run(picture("relight", "x.exr", {"--move", "lift=0,1,0"}));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'left'"), std::string::npos) << unknown.err;
   EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1"})).code, 2);
   EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "left=0,1,0", "--device", "software"})).code, 2);
   const test::Outcome inside =
       run(picture("relight", "x.exr", {"--light", "point,position=0.4,0.3,-0.3,lumens=10"}));
   EXPECT_NE(inside.err.find("inside something"), std::string::npos) << inside.err;
+}
+
+/// The room with a bulb and a spot that share a group.
+Scene room_with_bulbs(const Vec3& bulb_at, const Vec3& spot_at, const Vec3& spot_axis) {
+  Scene scene = test::two_lamp_room();
+  Light bulb;
+  bulb.name = "bulb", bulb.group_name = "bulbs";
+  bulb.intensity = Rgb(8, 7, 5);
+  bulb.frame[3] = glm::vec4(bulb_at, 1);
+  Light spot = bulb;
+  spot.name = "spot";
+  spot.intensity = Rgb(20);
+  spot.shape = SpotLight{.inner = 0.3f, .outer = 0.6f};
+  spot.frame = look_at(spot_at, spot_at + spot_axis).frame;
+  scene.lights = {bulb, spot};
+  return scene;
+}
+
+// One lamp of two leaves their layer, which keeps the other: where it stood, the picture is that of the
+// layer; elsewhere, that of a bake with the lamp there.
+TEST_F(Relight, OneLampLeavesALayerThatStays) {
+  const Vec3 before(-0.3f, 1.2f, 0.1f), after(0.5f, 1.5f, 0.4f), spot(-0.7f, 1.7f, 0.6f), down(0, -1, 0),
+      aside(0.6f, -0.7f, -0.5f);
+  const auto bake = [&](const std::string& name, const Scene& scene, const Names& more) {
+    write_file(folder / (name + ".glb"), write_glb(scene, "test"));
+    expect_done(run({"bake", file(name + ".glb"), "--density", "16", "--samples", "256"}, more));
+  };
+  bake("room", room_with_bulbs(before, spot, down), {"--movable"});
+  bake("there", room_with_bulbs(after, spot, aside), {});
+  expect_done(run(picture("render", "baked.exr", {"--device", "cpu"})));
+  expect_done(run(picture("relight", "still.exr", {"--move", "bulb=-0.3,1.2,0.1"})));
+  EXPECT_NEAR(mean("still.exr") / mean("baked.exr"), 1, 0.005);
+  const auto alike = [&](const std::string& a, const std::string& b, const std::string& most) {
+    const test::Outcome outcome = run({"diff", file(a), file(b), "--metric", "rmse", "--fail-above", most});
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+  };
+  alike("still.exr", "baked.exr", "3%");
+
+  Names elsewhere = picture("render", "there.exr", {"--device", "cpu"});
+  elsewhere[1] = file("there.sconce");
+  expect_done(run(elsewhere));
+  const std::string turned = "spot=-0.7,1.7,0.6,target=-0.1,1,0.1";
+  expect_done(run(picture("relight", "moved.exr", {"--move", "bulb=0.5,1.5,0.4", "--move", turned})));
+  EXPECT_NEAR(mean("moved.exr") / mean("there.exr"), 1, 0.03);
+  alike("moved.exr", "there.exr", "6%");
+  // Exposure is metered as `render` does, on the lightmap.
+  expect_done(run(picture("render", "baked.png", {"--device", "cpu"})));
+  expect_done(run(picture("relight", "still.png", {"--move", "bulb=-0.3,1.2,0.1"})));
+  alike("still.png", "baked.png", "3%");
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--move", "bulb=0,1,0,target=0,0,0"})).code, 2);
+}
+
+// A bake that is repeated leaves an operator that still fits alone, and makes another where it does not.
+TEST_F(Relight, BakingAgainKeepsWhatFits) {
+  make_room();
+  const std::string op = package + "/operators/lightmap.bin", before = read_file(op);
+  const Names bake{"bake", file("room.glb"), "--density", "16", "--movable", "--samples"};
+  expect_done(run(bake, {"8"}));
+  EXPECT_EQ(hash_hex(read_file(op)), hash_hex(before));
+  fs::remove(op);
+  expect_done(run(bake, {"8"}));
+  EXPECT_TRUE(fs::exists(op)) << "where the package is up to date, too";
+  EXPECT_EQ(run(bake, {"8", "--shard", "0/2"}).code, 2);
+  expect_done(run({"bake", file("room.glb"), "--density", "20", "--samples", "8"}));
+  EXPECT_FALSE(fs::exists(op));
+  const test::Outcome none = run(picture("relight", "x.exr", {"--move", "left=0,1,0"}));
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("bake --movable"), std::string::npos) << none.err;
 }
 
 // A cut-off state goes on to the same bytes; one of other options is refused.

@@ -7,6 +7,7 @@
 #include "mix/preset.h"
 #include "package/test_package.h"
 #include "process.h"
+#include "small_scenes.h"
 
 namespace fs = std::filesystem;
 
@@ -68,6 +69,49 @@ TEST_F(ViewTest, HandsMoveFadersAndKeysTakeThemBack) {
   const auto setting = [&](const std::string& file) { return read_preset(path(file)).assignments.front(); };
   EXPECT_EQ(setting("undone.toml"), "ceiling=on");
   ASSERT_TRUE(setting("pulled.toml").starts_with("ceiling=0.")) << setting("pulled.toml");
+}
+
+// A lamp that was dragged shines as `relight --move` says, and undo takes it back.
+TEST_F(ViewTest, LampsAreDraggedAndTheirLightFollows) {
+  folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
+        {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
+    const auto made = test::run_sconce(words);
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  const auto outcome =
+      view("ev100 3\nsettle\npicture " + path("home.png") + "\nlamp \"lamp left\" 0,1.4,0\nsettle\npicture " +
+           path("there.png") + "\ntug y 0,60\nsettle\npicture " + path("tugged.png") + "\nmoves " +
+           path("moves.txt") + "\nscreenshot " + path("all.png") + "\nkey ctrl+z\nsettle\npicture " +
+           path("undone.png") + "\nhome\nsettle\npicture " + path("back.png") + "\ngrab lamp\n");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("no lamp or group 'lamp'"), std::string::npos) << outcome.err;
+  const Image8 there = png("there.png");
+  const auto relit = [&](const std::string& move, const std::string& output) {
+    const auto made = test::run_sconce(
+        {"relight", path("x.sconce"), "--move", move, "--ev100", "3", "--device", "cpu", "--size",
+         std::to_string(there.width) + "x" + std::to_string(there.height), "-o", path(output)});
+    EXPECT_EQ(made.code, 0) << made.err;
+    return png(output);
+  };
+  EXPECT_LE(mean_difference(there, relit("lamp left=0,1.4,0", "relit.png")), 2);
+  EXPECT_GT(mean_difference(there, png("home.png")), 4);
+  // Down along the green arrow alone.
+  const std::string moves = read_file(path("moves.txt"));
+  float x = 1, y = 2, z = 1;
+  ASSERT_EQ(std::sscanf(moves.c_str(), "lamp left=%f,%f,%f", &x, &y, &z), 3) << moves;
+  EXPECT_NEAR(x, 0, 1e-3);
+  EXPECT_NEAR(z, 0, 1e-3);
+  EXPECT_LT(y, 1.35f);
+  EXPECT_LE(mean_difference(png("tugged.png"), relit(moves.substr(0, moves.size() - 1), "relit.png")), 2);
+  EXPECT_LE(mean_difference(png("undone.png"), there), 0.01);
+  EXPECT_LE(mean_difference(png("back.png"), png("home.png")), 0.01);
+
+  std::filesystem::remove_all(path("x.sconce") + "/operators");
+  const auto none = view("settle\ngrab left\n");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("bake --movable"), std::string::npos) << none.err;
 }
 
 TEST_F(ViewTest, PresetsFadeAndFilesDrop) {

@@ -12,6 +12,7 @@
 #include "encode/choice.h"
 #include "ranks.h"
 #include "solve/timing.h"
+#include "transfer_job.h"
 
 namespace fs = std::filesystem;
 
@@ -58,7 +59,7 @@ struct Request {
   BakeJob job;
   fs::path output;
   std::optional<Shard> shard;
-  bool resume = false, force = false, dry_run = false;
+  bool resume = false, force = false, dry_run = false, movable = false;
 };
 
 /// The state file that a bake leaves behind until its package stands.
@@ -93,6 +94,23 @@ int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const R
   return samples;
 }
 
+/// `--movable`: the lightmap's operator, unless one of this package stands.
+void make_movable(const Request& request, const Options& options, RankSession& session,
+                  const Progress& progress) {
+  if (!request.movable) return;
+  session.together([&] {
+    if (session.ranks().index != 0 || (!request.force && has_operator(Package::open(request.output), "")))
+      return;
+    TransferJob job;
+    job.package = request.output;
+    job.params.seed = request.job.params.seed;
+    job.resume = request.resume;
+    const MadeOperator made = run_transfer_job(job, progress);
+    if (!options.quiet && !options.json)
+      fmt::print("{}: {} texels, so that lamps may move\n", made.path.string(), made.op.gather.rows);
+  });
+}
+
 int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
@@ -122,6 +140,7 @@ int execute(const Request& request, const Options& options, RankSession& session
   }
   if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
+    make_movable(request, options, session, progress);
     return kDone;
   }
   std::vector<BakeState> states;
@@ -154,6 +173,7 @@ int execute(const Request& request, const Options& options, RankSession& session
     for (const BakeState& state : states) fs::remove(state.path(), ignored);
     if (!options.quiet || options.json) print_result(bake, manifest, request.output, seconds(), options.json);
   });
+  make_movable(request, options, session, progress);
   return kDone;
 }
 
@@ -192,6 +212,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   options.option("--max-error", &max_error, "what --encoding auto may lose, e.g. 1% (the default)");
   options.option("--denoise", &denoise,
                  "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
+  options.flag("--movable", &request.movable,
+               "also what 'sconce transfer' makes, so that lamps can be taken out of their layers and moved");
   options.option("--seed", &seed, "random seed");
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
   options.flag("--resume", &request.resume, "continue an interrupted bake");
@@ -255,6 +277,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   if (runs_program && noise > 0) throw UsageError("--noise", "cannot stand beside --solver " + job.solver);
   if (runs_program && !shard.empty())
     throw UsageError("--shard", "cannot stand beside --solver " + job.solver + ", which bakes whole pages");
+  if (!shard.empty() && request.movable)
+    throw UsageError("--movable", "cannot stand beside --shard", "'sconce transfer' after 'sconce merge'");
   if (!shard.empty()) request.shard = parse_shard(shard);
   request.output =
       output.empty() ? job.scene.parent_path() / (job.scene.stem().string() + ".sconce") : fs::path(output);

@@ -9,9 +9,10 @@
 #include "core/text.h"
 #include "import/lights.h"
 #include "mix_options.h"
-#include "operator_path.h"
 #include "picture_options.h"
 #include "picture_output.h"
+#include "relight/package_operator.h"
+#include "relight/texel_light.h"
 #include "relight_stage.h"
 #include "shader_lamp.h"
 #include "tone/apply.h"
@@ -33,8 +34,22 @@ Light light_option(const std::string& text) {
 
 struct Move {
   std::string name;
-  Vec3 to;
+  LampPlace to;
 };
+
+/// `LAMP=X,Y,Z`, and `,target=X,Y,Z` after it. @throws UsageError
+Move parse_move(const std::string& text) {
+  constexpr std::string_view kTarget = ",target=";
+  const std::size_t target = text.rfind(kTarget);
+  const std::string place = text.substr(0, target);
+  const std::size_t equals = place.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError("option '--move'", "'" + text + "' is not understood", "LAMP=X,Y,Z[,target=X,Y,Z]");
+  Move move{place.substr(0, equals), {parse_point(place.substr(equals + 1), "--move"), {}}};
+  if (target != std::string::npos)
+    move.to.target = parse_point(text.substr(target + kTarget.size()), "--move");
+  return move;
+}
 
 /// What `--light`, `--lights` and `--move` ask for.
 struct Wanted {
@@ -58,12 +73,7 @@ Wanted find_wanted(const std::vector<std::string>& texts, const std::string& fil
   }
   if (!file.empty())
     for (Light& light : read_lights(file, progress)) wanted.lights.push_back(std::move(light));
-  for (const std::string& text : moves) {
-    const std::size_t equals = text.rfind('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError("option '--move'", "'" + text + "' is not understood", "LAMP=X,Y,Z");
-    wanted.moves.push_back({text.substr(0, equals), parse_point(text.substr(equals + 1), "--move")});
-  }
+  for (const std::string& text : moves) wanted.moves.push_back(parse_move(text));
   if (wanted.lights.empty() && wanted.groups.empty() && wanted.moves.empty() && wanted.shaders.empty())
     throw UsageError({}, "no lamp to move: --light, --lights or --move",
                      "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
@@ -79,18 +89,6 @@ Id<LightGroup> find_group(const Manifest& m, const std::string& name) {
     throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
                      join(known, ", "));
   return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
-}
-
-/// Groups that come by transfer leave the lightmap: their weight goes from the mix to their lamps.
-std::vector<MovedGroup> take_groups(const std::vector<Id<LightGroup>>& groups, MixSpec& lightmap) {
-  std::vector<MovedGroup> moved;
-  for (const Id<LightGroup> group : groups) {
-    if (std::any_of(moved.begin(), moved.end(), [&](const MovedGroup& m) { return m.group == group; }))
-      continue;
-    moved.push_back({group, lightmap.weights[group.value]});
-    lightmap.weights[group.value] = Rgb(0);
-  }
-  return moved;
 }
 
 struct Relit {
@@ -144,9 +142,10 @@ int run_relight(int argc, const char* const* argv) {
       "may "
       "be given several times");
   options.option("--lights", &file, "TOML file with [[light]] tables");
-  options.option("--move", &moves,
-                 "LAMP=X,Y,Z: a lamp or a whole group of the package leaves its layer and shines from there; "
-                 "may be given several times");
+  options.option(
+      "--move", &moves,
+      "LAMP=X,Y,Z[,target=X,Y,Z]: a lamp or a whole group of the package leaves its layer and shines "
+      "from there, turned to the target; may be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option("--patches", &device.patches, "small lamps that OpenGL draws a lamp with an area as");
@@ -189,25 +188,37 @@ int run_relight(int argc, const char* const* argv) {
     MixSpec lightmap = relit.mix;
     std::vector<Id<LightGroup>> left;
     for (const std::string& name : wanted.groups) left.push_back(find_group(package.manifest(), name));
-    std::vector<LampMove> shifts;
-    if (!wanted.moves.empty()) {
-      const Lamps own(view.scene(), view.world());
-      for (const Move& move : wanted.moves) {
-        shifts.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
-        left.insert(left.end(), shifts.back().groups.begin(), shifts.back().groups.end());
-      }
-    }
-    const std::vector<MovedGroup> groups = take_groups(left, lightmap);
+    const Lamps own(view.scene(), view.world());
+    std::vector<LampMove> moved;
+    for (const Move& move : wanted.moves)
+      moved.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
+    const bool texels = op.kind == OperatorReceivers::texels;
+    const std::vector<MovedGroup> groups = take_lamps(own, left, moved, !texels, lightmap);
     find_view(op, view, picture, progress, relit);
     progress.check();
-    const RelightJob job{package, view, op, wanted.lights, wanted.shaders, groups, shifts};
+    const auto lamps_at = [&](const std::vector<Light>& lights, std::span<const MovedGroup> of,
+                              std::span<const LampMove> by) {
+      return MovedLamps(view.scene(), view.world(), view.tracer(), lights, of, by);
+    };
+    const MovedLamps lamps = lamps_at(wanted.lights, groups, moved);
+    RelightJob job{package, view, op, lamps, wanted.shaders, nullptr};
+    std::vector<Image> pages = mix_pages(package, lightmap);
+    if (const std::vector<MovedGroup> parts = in_part(groups); !parts.empty()) {
+      job.bounces = std::make_shared<FoldedBounces>(op);
+      take_share(package_atlas(package, view), op,
+                 lightmap_share(package, view, op, *job.bounces, lamps_at({}, parts, {}), progress), pages);
+    }
     const auto stage = make_relight_stage(job, device, progress);
     relit.seconds = stage->seconds();
     relit.device = stage->device();
-    std::vector<Image> pages = mix_pages(package, lightmap);
-    if (op.kind == OperatorReceivers::texels) stage->add_to(pages);
+    if (texels) stage->add_to(pages);
     relit.linear = stage->draw(relit.camera, relit.mix, pages, relit.params, progress);
-    if (exposed) relit.metering = meter_picture(relit.linear);
+    if (exposed && texels && wanted.shaders.empty()) {
+      add_to_pages(package, view, op, direct_at_middles(op, lamps), pages);
+      relit.metering = meter(package, view.scene(), relit.mix, pages);
+    } else if (exposed) {
+      relit.metering = meter_picture(relit.linear);
+    }
     const Exposure exposure =
         exposed ? choice.resolve(relit.metering) : unit_exposure(relit.metering.maximum);
     linear ? write_linear(output, relit.linear, exposure)

@@ -19,8 +19,10 @@ namespace {
 
 class CpuRelightStage : public RelightStage {
  public:
-  CpuRelightStage(const RelightJob& job, std::unique_ptr<MovedLamps> lamps)
-      : view_(job.view), lamps_(std::move(lamps)), relighter_(job.package, job.view, job.op, *lamps_) {}
+  explicit CpuRelightStage(const RelightJob& job)
+      : view_(job.view),
+        relighter_(job.package, job.view, job.op, job.bounces ? *job.bounces : FoldedBounces(job.op),
+                   job.lamps) {}
   std::string device() const override { return "cpu"; }
   Relighter::Seconds seconds() const override { return relighter_.seconds(); }
   void add_to(std::vector<Image>& pages) const override { relighter_.add_to(pages); }
@@ -31,7 +33,6 @@ class CpuRelightStage : public RelightStage {
 
  private:
   const View& view_;
-  std::unique_ptr<MovedLamps> lamps_;
   Relighter relighter_;
 };
 
@@ -120,21 +121,19 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
                                                  const Progress& progress) {
   if (device.name == "cpu" && !job.shaders.empty())
     throw UsageError("option '--device'", "light shaders need OpenGL", "gl, auto");
-  auto lamps = std::make_unique<MovedLamps>(job.view.scene(), job.view.world(), job.view.tracer(), job.lights,
-                                            job.groups, job.moves);
-  for (const std::string& name : lamps->buried())
+  for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
   if (auto context = open_context(job.shaders.empty() ? device.name : "gl")) {
     try {
       std::vector<gpu::LampShader> all =
-          gpu::lamp_shaders(lamps->lamps(), lamps->chosen(), device.patches, device.shadow_side);
+          gpu::lamp_shaders(job.lamps.lamps(), job.lamps.chosen(), device.patches, device.shadow_side);
       all.insert(all.end(), job.shaders.begin(), job.shaders.end());
       return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all), *lamps, device);
     } catch (const gpu::UnknownLamp&) {
       if (device.name == "gl" || !job.shaders.empty()) throw;
     }
   }
-  return std::make_unique<CpuRelightStage>(job, std::move(lamps));
+  return std::make_unique<CpuRelightStage>(job);
 }
 
 }  // namespace sconce::app

@@ -9,15 +9,14 @@
 
 namespace sconce::app {
 
-/// What is moved. Package, view and operator must outlive the stage.
+/// What is moved. Package, view, operator and lamps must outlive the stage.
 struct RelightJob {
   const Package& package;
   const View& view;
   const Operator& op;
-  std::vector<Light> lights;
-  std::vector<gpu::LampShader> shaders;  ///< these need OpenGL
-  std::vector<MovedGroup> groups;
-  std::vector<LampMove> moves;
+  const MovedLamps& lamps;
+  std::vector<gpu::LampShader> shaders;          ///< these need OpenGL
+  std::shared_ptr<const FoldedBounces> bounces;  ///< of the operator; made where null and needed
 };
 
 /// For OpenGL.

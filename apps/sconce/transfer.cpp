@@ -7,41 +7,17 @@
 #include "app.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/text.h"
-#include "operator_path.h"
-#include "picture_options.h"
-#include "relight/precompute.h"
-
-namespace fs = std::filesystem;
+#include "transfer_job.h"
 
 namespace sconce::app {
-
-namespace {
-
-std::string options_text(const Options& options) {
-  std::string text;
-  for (const auto& [name, value] : options.provenance())
-    if (value.source != "default") text += name + "=" + value.value + " ";
-  return trim(text);
-}
-
-/// All that rows of F depend on beside the scene.
-std::string key_of(const TransferParams& p, const RelightReceivers& receivers) {
-  std::string key = fmt::format("{} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
-                                p.bounce_coefficients, p.points, p.lights, p.seed, receivers.source.count);
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r) key += fmt::format(" {}", receivers.camera.frame[c][r]);
-  return key + fmt::format(" {} {} {}", receivers.camera.yfov, receivers.width, receivers.height);
-}
-
-}  // namespace
 
 int run_transfer(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
   std::string input;
-  bool lightmap = false, resume = false;
-  PictureOptions picture;
-  TransferParams params;
+  bool lightmap = false;
+  TransferJob job;
+  PictureOptions& picture = job.picture;
+  TransferParams& params = job.params;
   int gather = static_cast<int>(params.gather), seed = 1;
   Options options("transfer",
                   "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
@@ -59,7 +35,7 @@ int run_transfer(int argc, const char* const* argv) {
   options.option("--points", &params.points, "where direct light is asked for, per sample of the cloud");
   options.option("--lights", &params.lights, "lamps at random places that rows are fitted to");
   options.option("--seed", &seed, "of the random numbers");
-  options.flag("--resume", &resume, "go on with what an interrupted transfer left");
+  options.flag("--resume", &job.resume, "go on with what an interrupted transfer left");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (lightmap && !picture.camera.empty()) throw UsageError({}, "--lightmap and --camera exclude each other");
   if (!picture.size.empty() && picture.camera.empty()) throw UsageError({}, "--size needs --camera");
@@ -69,34 +45,14 @@ int run_transfer(int argc, const char* const* argv) {
   params.seed = static_cast<uint32_t>(seed);
 
   const ThreadLimit threads(options.threads);
-  Operator op;
-  fs::path path;
-  {
+  job.package = input;
+  job.options = given_options(options);
+  const auto [op, path] = [&] {
     const Progress progress = make_progress(options);
-    const Package package = Package::open(input);
-    const View view(package);
-    RelightReceivers receivers;
-    if (picture.camera.empty()) {
-      receivers = texel_receivers(package, view, progress);
-    } else {
-      const Camera camera = picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
-      const PictureParams size = picture.params(camera);
-      receivers = pixel_receivers(view, camera, size.width, size.height);
-    }
-    path = operator_path(package.path(), picture.camera);
-    std::error_code ec;
-    fs::create_directory(path.parent_path(), ec);
-    const std::string scene = operator_scene(package);
-    TransferState state(fs::path(path) += ".state",
-                        fmt::format("{} {} {} {}", SCONCE_VERSION, isa(), scene, key_of(params, receivers)),
-                        resume);
-    op = make_operator(view.traced(), receivers, params, scene, {progress, &state});
-    op.options = options_text(options);
-    write_operator(path, op);
-    state.remove();
-  }
+    return run_transfer_job(job, progress);
+  }();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto bytes = fs::file_size(path);
+  const auto bytes = std::filesystem::file_size(path);
   if (options.json) {
     const nlohmann::ordered_json report = {{"input", input},
                                            {"output", path.string()},

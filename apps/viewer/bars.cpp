@@ -34,6 +34,8 @@ constexpr Key kKeys[] = {{"Left drag", "turn around what is under the pointer"},
                          {"C", "next camera of the scene"},
                          {"F", "all in sight"},
                          {"Ctrl-click", "wish for lux at a surface"},
+                         {"Click a lamp's ring", "handles to drag it by, with sconce bake --movable"},
+                         {"H, L", "the lamp goes home; rings of lamps"},
                          {"Double click on a fader", "as baked; Shift: fine; Ctrl-wheel: a tenth of a stop"},
                          {"Ctrl Z, Ctrl Y", "undo, redo"},
                          {"1 to 9", "views, in their order"},
@@ -101,6 +103,8 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     line = "opening " + state_.file.filename().string();
   else if (measuring_.running())
     line = "measuring";
+  else if (preparing_.running())
+    line = "preparing lamps to be moved";
   else if (state_.ready())
     line = fmt::format("{} groups  {} x {}  {} page{}", state_.session->groups().size(),
                        state_.opened->package.manifest().width, state_.opened->package.manifest().height,

@@ -53,21 +53,26 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
     atlas_ = std::make_unique<gpu::AtlasMix>(context, gpu::for_tier(opened_->layers, tier), tier);
 }
 
-void Canvas::update_mix(const MixSpec& mix, bool metered) {
-  if (mixed_ && mix.weights == mix_.weights && (metered_ || !metered)) return;
+void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered) {
+  const uint64_t relit = mover != nullptr ? mover->version() : 0;
+  if (mixed_ && mix.weights == mix_.weights && relit == relit_ && (metered_ || !metered)) return;
   const auto start = std::chrono::steady_clock::now();
-  const bool on_device = atlas_ != nullptr;
-  if (!on_device || metered) {
-    const std::vector<Image>& pages = mixer_.mix(mix);
+  const bool moved = mover != nullptr && mover->any();
+  on_device_ = atlas_ != nullptr && !moved;
+  if (!on_device_ || metered) {
+    const std::vector<Image>& layers = mixer_.mix(moved ? mover->layers_mix(mix) : mix);
+    std::vector<Image> relit_pages;
+    if (moved) mover->add_to(mix, relit_pages = layers);
+    const std::vector<Image>& pages = moved ? relit_pages : layers;
     if (metered) metering_ = opened_->meter(mix, pages);
     fader_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    if (!on_device && pages_ == nullptr)
+    if (!on_device_ && pages_ == nullptr)
       pages_ = std::make_unique<gpu::MixedPages>(*context_, pages);
-    else if (!on_device)
+    else if (!on_device_)
       pages_->set(pages);
   }
-  if (on_device) atlas_->mix(mix.weights);
-  mix_ = mix, mixed_ = true, metered_ = metered;
+  if (on_device_) atlas_->mix(mix.weights);
+  mix_ = mix, mixed_ = true, metered_ = metered, relit_ = relit;
   samples_ = 0;
 }
 
@@ -79,13 +84,13 @@ const gpu::LightSource& Canvas::light(LookKind look) {
     }
     return *noise_;
   }
-  if (atlas_ != nullptr) return *atlas_;
+  if (on_device_) return *atlas_;
   return *pages_;
 }
 
-bool Canvas::draw(const Session& session, const Scenery& scenery) {
+bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMover* mover) {
   const bool metered = session.mood().automatic || find_tone_mapper(session.mood().tone).needs_maximum;
-  update_mix(session.mix(), metered);
+  update_mix(session.mix(), mover, metered);
   if (!same(scenery, drawn_)) samples_ = 0;
   const bool redisplay =
       samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);

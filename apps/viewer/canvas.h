@@ -11,9 +11,8 @@
 #include "gpu/mix.h"
 #include "gpu/view.h"
 #include "mix/mixer.h"
+#include "session/lamp_mover.h"
 #include "session/look.h"
-#include "session/opened.h"
-#include "session/session.h"
 
 namespace sconce::viewer {
 
@@ -29,8 +28,8 @@ class Canvas {
  public:
   Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened);
 
-  /// Draws what is needed. @return whether more samples are to come
-  bool draw(const Session& session, const Scenery& scenery);
+  /// Draws what is needed. @param mover  null where lamps stay. @return whether more samples are to come
+  bool draw(const Session& session, const Scenery& scenery, const LampMover* mover);
   /// Beside the picture, of the same size: codes of another one, for the right half of `reference`.
   void set_reference(const Image& linear, const Session& session);
   bool has_reference() const { return reference_sum_ != nullptr; }
@@ -45,7 +44,7 @@ class Canvas {
   static constexpr int kSamples = 16;
 
  private:
-  void update_mix(const MixSpec& mix, bool metered);
+  void update_mix(const MixSpec& mix, const LampMover* mover, bool metered);
   const gpu::LightSource& light(LookKind look);
   void display(const Session& session, const Scenery& scenery);
 
@@ -61,7 +60,8 @@ class Canvas {
   std::unique_ptr<gpu::Texture> reference_sum_;
 
   MixSpec mix_;
-  bool mixed_ = false, metered_ = false;
+  bool mixed_ = false, metered_ = false, on_device_ = false;
+  uint64_t relit_ = 0;  ///< LampMover::version()
   Metering metering_;
   Scenery drawn_;
   Mood shown_;

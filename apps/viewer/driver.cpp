@@ -21,6 +21,9 @@ std::vector<float> numbers(const Action& action, std::size_t i, std::size_t fewe
   return found;
 }
 
+/// In the order of kGrips.
+constexpr std::array<std::string_view, 4> kGripNames{"floor", "x", "y", "z"};
+
 }  // namespace
 
 bool Driver::step() {
@@ -40,8 +43,9 @@ bool Driver::step() {
   if (frames_ > 0) return --frames_, true;
   if (until_ > ImGui::GetTime()) return true;
   if (settling_) {
-    const bool moving =
-        v.drawing_more_ || v.opening_.running() || v.baking_.running() || v.measuring_.running();
+    const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() ||
+                        v.measuring_.running() || v.preparing_.running() || v.refining_.running() ||
+                        (v.state_.lamps.mover && v.state_.lamps.mover->rough());
     if (moving) return true;
     settling_ = false;
   }
@@ -68,6 +72,44 @@ void Driver::drag(float x0, float y0, float x1, float y1) {
   }
   path_.emplace_back(x1, y1);
   path_at_ = 0;
+}
+
+bool Driver::lamp(const Action& action) {
+  Viewer& v = *viewer_;
+  State& s = v.state_;
+  const auto& [word, arguments, where] = action;
+  if (!s.lamps.mover) {
+    if (!v.preparing_.running())
+      throw Error(where, "lamps of this package stay where they are: it has no operator",
+                  "sconce bake --movable, sconce transfer");
+    return --at_, true;  // it is being read
+  }
+  const LampMover& mover = *s.lamps.mover;
+  if (word == "moves") {
+    std::string lines;
+    for (const std::string& line : move_options(mover, s.session->mood().moved)) lines += line + "\n";
+    return write_file(arguments[0], lines), true;
+  }
+  if (word == "home") return v.put_lamp_back(), frames_ = 1, true;
+  if (word == "tug") {
+    const auto named = std::find(kGripNames.begin(), kGripNames.end(), arguments[0]);
+    if (named == kGripNames.end())
+      throw UsageError(where, "unknown handle '" + arguments[0] + "'", "x, y, z, floor");
+    if (!s.lamps.chosen) throw Error(where, "no lamp is chosen", "grab LAMP");
+    const auto place = mover.place(*s.lamps.chosen, s.session->mood().moved);
+    const auto tip = place ? v.handle_at(*place, kGrips[static_cast<std::size_t>(named - kGripNames.begin())])
+                           : std::nullopt;
+    if (!tip) throw Error(where, "that handle is not in sight");
+    const auto by = numbers(action, 1, 2);
+    return drag(tip->x, tip->y, tip->x + by[0], tip->y + by[1]), true;
+  }
+  const std::vector<std::size_t> found = mover.find(arguments[0], where);
+  s.lamps.chosen = found.front();
+  if (word == "lamp") {
+    const auto to = numbers(action, 1, 3);
+    v.move_lamp(found.front(), {to[0], to[1], to[2]}, false);
+  }
+  return frames_ = 1, true;
 }
 
 bool Driver::perform(const Action& action) {
@@ -152,6 +194,8 @@ bool Driver::perform(const Action& action) {
     return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values),
            true;
   }
+  if (word == "lamp" || word == "grab" || word == "tug" || word == "home" || word == "moves")
+    return lamp(action);
   if (word == "like") return v.seek_picture(arguments[0]), frames_ = 1, true;
   if (word == "seek") return v.seek(), frames_ = 1, true;
   if (word == "package") return v.save_package(arguments[0]), true;

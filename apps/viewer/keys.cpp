@@ -9,7 +9,7 @@ void Viewer::keys() {
   if (io.WantTextInput) return;
   const auto pressed = [](const char* name) { return ImGui::IsKeyPressed(key_of(name), false); };
   if (pressed("f1")) state_.help = !state_.help;
-  if (pressed("escape")) state_.help = false;
+  if (pressed("escape")) state_.help = false, state_.lamps.chosen.reset();
   if (!state_.ready()) return;
   Session& session = *state_.session;
   if (io.KeyCtrl) {
@@ -19,6 +19,8 @@ void Viewer::keys() {
     return;
   }
   if (pressed("tab")) state_.panels = !state_.panels;
+  if (pressed("l")) state_.lamps.shown = !state_.lamps.shown;
+  if (pressed("h")) put_lamp_back();
   if (pressed("i")) state_.reading = !state_.reading;
   if (pressed("x")) session.meter_once(metering_now());
   if (pressed("p") || pressed("f12")) attempt([&] { screenshot(); });

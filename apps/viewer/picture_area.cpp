@@ -50,7 +50,8 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   const PictureParams p = params_of(size);
   attempt([&] {
     drawing_more_ |=
-        state_.canvas->draw(*state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()});
+        state_.canvas->draw(*state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()},
+                            state_.lamps.mover.get());
     if (state_.look == LookKind::reference && reference_ && traced_)
       state_.canvas->set_reference(reference_->picture(*traced_, state_.canvas->mix()), *state_.session);
   });
@@ -65,6 +66,7 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
          fmt::format("path traced, {} paths per pixel", traced_->samples));
   }
   overlays();
+  lamp_overlay();
   ImGui::End();
 }
 
@@ -73,6 +75,7 @@ void Viewer::navigate() {
   const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
   const PictureParams p = params_of(state_.canvas_size);
   const Vec2 at(io.MousePos.x - state_.canvas_at.x, io.MousePos.y - state_.canvas_at.y);
+  if (hold_lamp(at)) return;
   const Opened& opened = *state_.opened;
   const float reach = std::max(opened.rays.world().bounds.diagonal(), 0.1f);
   if (hovered && !active) {
@@ -127,12 +130,10 @@ void Viewer::overlays() {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = state_.canvas_at, size = state_.canvas_size;
   const MixSpec mix = state_.session->mix();
-  const PictureParams p = params_of(size);
-  const Mat3 to_plane(glm::inverse(glm::dmat3(Lens(state_.camera, p).plane())));
-  const auto project = [&](const Vec3& point) -> std::optional<ImVec2> {
-    const Vec3 q = to_plane * (point - Vec3(state_.camera.frame[3]));
-    if (!(q.z > 1e-4f)) return std::nullopt;
-    return ImVec2(at.x + q.x / q.z, at.y + q.y / q.z);
+  const auto project = [&, from = lens()](const Vec3& point) -> std::optional<ImVec2> {
+    const auto p = sconce::project(from, point);
+    if (!p) return std::nullopt;
+    return ImVec2(at.x + p->x, at.y + p->y);
   };
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
 

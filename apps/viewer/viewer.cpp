@@ -46,7 +46,7 @@ Viewer::Viewer(const ViewRequest& request)
 }
 
 Viewer::~Viewer() {
-  baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop();
+  baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop();
   std::error_code ignored;
   if (!own_folder_.empty()) fs::remove_all(own_folder_, ignored);
   if (request_.forget) return;
@@ -126,8 +126,10 @@ void Viewer::take_results() {
   if (auto opened = opening_.take()) attempt([&] { show(*opened); });
   if (auto light = measuring_.take()) state_.plane.light = std::move(*light);
   if (auto light = tracing_.take()) traced_ = std::move(*light);
+  if (state_.ready()) attempt([&] { light_lamps(); });
   for (const std::string& problem :
-       {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem()})
+       {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem(),
+        preparing_.take_problem(), refining_.take_problem()})
     if (!problem.empty()) note(problem);
 }
 
@@ -144,6 +146,7 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   state_.canvas = std::move(canvas);
   state_.opened = std::move(opened);
   state_.package = state_.opened->package.path();
+  prepare_lamps();
   if (again) {
     if (state_.plane.shown) measure();
     return;
@@ -284,7 +287,7 @@ void Viewer::attempt(const std::function<void()>& work) {
 
 bool Viewer::busy() const {
   return opening_.running() || baking_.running() || measuring_.running() || tracing_.running() ||
-         !state_.notes.empty();
+         preparing_.running() || refining_.running() || !state_.notes.empty();
 }
 
 void show_window(const ViewRequest& request) {

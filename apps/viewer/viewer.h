@@ -8,7 +8,9 @@
 #include <memory>
 
 #include "session/background.h"
+#include "session/gizmo.h"
 #include "session/goals.h"
+#include "session/lamp_mover.h"
 #include "session/look.h"
 #include "session/measure.h"
 #include "session/motion.h"
@@ -47,6 +49,16 @@ struct Goal {
   std::vector<Rgb> lux;  ///< of each group, at unit weight
 };
 
+/// Lamps that are moved, where the package has an operator.
+struct MovingLamps {
+  std::unique_ptr<LampMover> mover;  ///< null until it is prepared, or where there is none
+  std::optional<std::size_t> chosen;
+  bool shown = true, held = false;
+  Grip grip = Grip::none;  ///< that is dragged
+  Vec3 start{0};           ///< where the lamp was when the drag began
+  Vec2 from{0};            ///< and the pointer
+};
+
 struct State {
   std::filesystem::path file;     ///< as it was asked for; empty = none
   std::filesystem::path package;  ///< that is shown; another one where a scene is baked
@@ -60,6 +72,7 @@ struct State {
   bool help = false, reading = true, panels = true, resizing = false;
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
+  MovingLamps lamps;
   std::vector<Goal> goals;
   std::string sought;                                ///< what goal seeking found, in words
   std::deque<std::pair<std::string, double>> notes;  ///< lines that fade, with the time they end
@@ -90,6 +103,17 @@ class Viewer {
   void keys();
   void set_look(LookKind look);
   void measure();
+  void prepare_lamps();
+  void light_lamps();
+  /// @param gesture  further moves of the same lamp are the same step of undo
+  void move_lamp(std::size_t lamp, const Vec3& to, bool gesture);
+  void put_lamp_back();
+  /// @param at  the pointer, in the picture. @return whether it holds a lamp
+  bool hold_lamp(Vec2 at);
+  Lens lens() const;
+  /// In the window, pixels; none out of sight.
+  std::optional<ImVec2> handle_at(const Vec3& lamp, Grip grip) const;
+  void lamp_overlay();
   void add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux);
   void seek();
   void seek_picture(const std::filesystem::path& file);
@@ -125,6 +149,8 @@ class Viewer {
   Background<std::shared_ptr<const Opened>> opening_;
   Background<std::filesystem::path> baking_;
   Background<MeasuredLight> measuring_, tracing_;
+  Background<std::shared_ptr<const Movable>> preparing_;
+  Background<std::pair<LampMover::Task, std::vector<Rgb>>> refining_;
   std::optional<ReferencePicture> reference_;
   std::optional<MeasuredLight> traced_;
   bool drawing_more_ = false, want_shot_ = false;

@@ -31,7 +31,7 @@ bool is_base_name(std::string_view name);
 std::vector<std::string> layer_names(std::span<const GroupInfo> groups, std::size_t coefficient = 0);
 
 /// Folders of the layers and of those before the denoiser.
-inline constexpr std::string_view kLayerFolder = "layers", kRawFolder = "raw";
+inline constexpr std::string_view kLayerFolder = "layers", kRawFolder = "raw", kOperatorFolder = "operators";
 
 /// "receivers.0.exr" and the like.
 std::string page_file(std::string_view stem, int page, std::string_view extension = ".exr");

@@ -279,6 +279,28 @@ class Writer {
   std::vector<Job> jobs_;
 };
 
+/// Operators that the standing package has stay where they still fit: geometry, materials and texels are the
+/// same.
+void keep_operators(const fs::path& before, const Manifest& now, const fs::path& folder) {
+  if (!is_package(before) || !fs::is_directory(before / kOperatorFolder)) return;
+  Manifest was;
+  try {
+    was = Package::open(before, false).manifest();
+  } catch (const Error&) {
+    return;  // damaged, and about to be replaced
+  }
+  const auto same = [&](const std::string& file) {
+    const auto a = was.hashes.find(file);
+    const auto b = now.hashes.find(file);
+    return a != was.hashes.end() && b != now.hashes.end() && a->second == b->second;
+  };
+  if (!same("scene.glb") || !same(std::string(kLayoutFile))) return;
+  fs::create_directory(folder / kOperatorFolder);
+  for (const auto& entry : fs::directory_iterator(before / kOperatorFolder))
+    if (entry.path().extension() == ".bin")
+      link_or_copy(entry.path(), folder / kOperatorFolder / entry.path().filename());
+}
+
 }  // namespace
 
 void write_package(const fs::path& path, PackageContents contents) {
@@ -288,6 +310,7 @@ void write_package(const fs::path& path, PackageContents contents) {
   Beside beside(path);
   try {
     writer.run(beside.path());
+    keep_operators(path, contents.manifest, beside.path());
   } catch (const fs::filesystem_error& e) {
     throw Error(path.string(), "cannot be written: " + e.code().message());
   } catch (const Error& e) {

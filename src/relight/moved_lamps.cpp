@@ -3,24 +3,14 @@
 
 #include <algorithm>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
-#include "core/text.h"
 
 namespace sconce {
 
 namespace {
 
 constexpr uint32_t kCloudStream = 0x636c6f64u, kMetStream = 0x6d6574u, kBuriedStream = 0x62757269u;
-
-std::optional<Vec3> place_of(const Lamp& lamp) {
-  if (const auto* punctual = std::get_if<PunctualLamp>(&lamp.shape)) return punctual->position;
-  if (const auto* luminaire = std::get_if<LuminaireLamp>(&lamp.shape)) return luminaire->position;
-  if (const auto* field = std::get_if<NearFieldLamp>(&lamp.shape)) return field->position;
-  if (const auto* mesh = std::get_if<MeshLamp>(&lamp.shape)) return mesh->center;
-  return std::nullopt;
-}
 
 /// Lamps are the scene's lights, in order, and then the emissive meshes.
 Scene with(const Scene& scene, const World& world, const std::vector<Light>& lights,
@@ -33,7 +23,7 @@ Scene with(const Scene& scene, const World& world, const std::vector<Light>& lig
         const auto* mesh = std::get_if<MeshLamp>(&lamps.all()[i].shape);
         Mat4& frame = mesh != nullptr ? out.instances[world.instances[mesh->first_triangle].value].transform
                                       : out.lights[i].frame;
-        frame[3] += glm::vec4(move.by, 0);
+        frame = move.motion * frame;
       }
   }
   out.lights.insert(out.lights.end(), lights.begin(), lights.end());
@@ -49,30 +39,9 @@ bool moves_meshes(const Scene& scene, std::span<const LampMove> moves) {
 
 }  // namespace
 
-LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const Vec3& to,
-                   const std::string& option) {
-  LampMove move;
-  std::vector<std::string> known;
-  Vec3 sum(0);
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    const Lamp& lamp = lamps.all()[i];
-    const std::string group = lamp.group.valid() ? scene[lamp.group].name : std::string();
-    for (const std::string& word : {lamp.name, group})
-      if (!word.empty() && std::find(known.begin(), known.end(), word) == known.end()) known.push_back(word);
-    if (name != lamp.name && name != group) continue;
-    const auto place = place_of(lamp);
-    if (!place) throw UsageError(option, "'" + name + "' shines from everywhere", "a lamp that has a place");
-    sum += *place;
-    move.lamps.push_back(i);
-    if (lamp.group.valid() &&
-        std::find(move.groups.begin(), move.groups.end(), lamp.group) == move.groups.end())
-      move.groups.push_back(lamp.group);
-  }
-  if (move.lamps.empty())
-    throw UsageError(option, "no lamp or group '" + name + "'" + did_you_mean(name, known),
-                     join(known, ", "));
-  move.by = to - sum / static_cast<float>(move.lamps.size());
-  return move;
+SurfacePoint point_of(const OperatorPoint& point) {
+  return {Vec3(point.position[0], point.position[1], point.position[2]), unpack_normal(point.shading),
+          unpack_normal(point.geometric)};
 }
 
 MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tracer,
@@ -85,20 +54,25 @@ MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tra
       lamps_(scene_, moved_world_.size() > 0 ? moved_world_ : world_) {
   const std::size_t more = lights.size();
   // Lamps of the scene alone, by their number there.
+  const auto before = [&](std::size_t i) { return i < scene.lights.size() ? i : i - more; };
+  const auto one_of = [](const std::vector<std::size_t>& some, std::size_t i) {
+    return some.empty() || std::find(some.begin(), some.end(), i) != some.end();
+  };
   const auto moved = [&](std::size_t i) {
-    const std::size_t before = i < scene.lights.size() ? i : i - more;
-    return std::any_of(moves.begin(), moves.end(), [&](const LampMove& move) {
-      return std::find(move.lamps.begin(), move.lamps.end(), before) != move.lamps.end();
-    });
+    return std::any_of(moves.begin(), moves.end(),
+                       [&](const LampMove& move) { return one_of(move.lamps, before(i)); });
   };
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
     const bool added = i >= scene.lights.size() && i < scene_.lights.size();
     const LampShape& shape = lamps_.all()[i].shape;
     const bool met =
         std::holds_alternative<SkyLamp>(shape) || (std::holds_alternative<MeshLamp>(shape) && !moved(i));
-    if (added) chosen_.push_back({i, Rgb(1), met});
+    if (added) {
+      chosen_.push_back({i, Rgb(1), met});
+      continue;
+    }
     for (const MovedGroup& group : groups)
-      if (!added && lamps_.all()[i].group == group.group && !group.weight.is_black())
+      if (lamps_.all()[i].group == group.group && !group.weight.is_black() && one_of(group.lamps, before(i)))
         chosen_.push_back({i, group.weight, met});
   }
   for (const Chosen& chosen : chosen_) {
@@ -179,11 +153,9 @@ std::vector<std::string> MovedLamps::buried() const {
 
 std::vector<Rgbx> light_cloud(const Operator& op, const MovedLamps& lamps) {
   return slot_exitance(op, [&](std::size_t i) {
-    const OperatorPoint& point = op.lit[i];
-    const SurfacePoint at{Vec3(point.position[0], point.position[1], point.position[2]),
-                          unpack_normal(point.shading), unpack_normal(point.geometric)};
     const auto slot = static_cast<uint32_t>(i / op.points_per_slot);
-    return lamps.illuminance(at, mix32(kCloudStream, slot), static_cast<uint32_t>(i % op.points_per_slot));
+    return lamps.illuminance(point_of(op.lit[i]), mix32(kCloudStream, slot),
+                             static_cast<uint32_t>(i % op.points_per_slot));
   });
 }
 

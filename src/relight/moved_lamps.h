@@ -2,30 +2,14 @@
 // Lamps that are not in any layer: new ones, those of light groups that come by transfer, moved or not.
 #pragma once
 
-#include "light/lamp.h"
+#include "relight/lamp_move.h"
 #include "trace/tracer.h"
 #include "transfer/operator.h"
 
 namespace sconce {
 
-/// A light group of the package, and what its lamps are multiplied by.
-struct MovedGroup {
-  Id<LightGroup> group;
-  Rgb weight;
-};
-
-/// Lamps of the scene that go elsewhere together, turned as they were.
-struct LampMove {
-  std::vector<std::size_t> lamps;      ///< of Lamps::all()
-  std::vector<Id<LightGroup>> groups;  ///< theirs: they leave their layers
-  Vec3 by{0};                          ///< m
-};
-
-/// The lamp of that name, all lamps where several bear it, or all of a group; their middle goes to `to`.
-/// @param option  that asked for it
-/// @throws UsageError: no such lamp, or one without a place (sun, sky)
-LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const Vec3& to,
-                   const std::string& option);
+/// As a place that light arrives at.
+SurfacePoint point_of(const OperatorPoint& point);
 
 class MovedLamps {
  public:

@@ -82,7 +82,7 @@ TEST(MovedLamps, CloseToALampIsNotNoisy) {
 // 12. A bulb that is moved keeps its intensity: E = I / d2.
 TEST(MovedLamps, AMovedBulbShinesFromItsNewPlace) {
   const Room room(lamp_scene());
-  const LampMove move = find_move(room.scene, room.lamps, "bulb", Vec3(3, 0.5f, 0), "--move");
+  const LampMove move = find_move(room.scene, room.lamps, "bulb", {Vec3(3, 0.5f, 0)}, "--move");
   ASSERT_EQ(move.groups.size(), 1u);
   EXPECT_NEAR(sampled(room.moved("bulb"), Vec3(3, 0, 0), 1).mean, 4 / 4.0, 1e-5);
   EXPECT_NEAR(sampled(room.moved("bulb", {&move, 1}), Vec3(3, 0, 0), 1).mean, 4 / 0.25, 1e-4);
@@ -91,10 +91,51 @@ TEST(MovedLamps, AMovedBulbShinesFromItsNewPlace) {
 // A lamp that is a mesh takes its shape along; rays meet it no more, yet the mean is the same.
 TEST(MovedLamps, AMovedMeshShinesFromItsNewPlace) {
   const Room room(lamp_scene());
-  const LampMove move = find_move(room.scene, room.lamps, "lamp", Vec3(10, 1, 0), "--move");
+  const LampMove move = find_move(room.scene, room.lamps, "lamp", {Vec3(10, 1, 0)}, "--move");
   const MovedLamps lamps = room.moved("lamp", {&move, 1});
   EXPECT_NEAR(sampled(lamps, Vec3(10, 0, 0), 4096).mean, on_axis(1), 0.01 * on_axis(1));
   EXPECT_LT(sampled(lamps, Vec3(0, 0, 0), 256).mean, 0.02);
+}
+
+// 10. Turned to its target a flat lamp shines there as on its axis; what shines all around has none.
+TEST(MovedLamps, ALampIsTurnedToItsTarget) {
+  const Room room(lamp_scene());
+  const LampMove move =
+      find_move(room.scene, room.lamps, "lamp", {Vec3(9, 0.5f, 0), Vec3(10, 0.5f, 0)}, "--move");
+  const MovedLamps lamps = room.moved("lamp", {&move, 1});
+  const SurfacePoint wall{Vec3(10, 0.5f, 0), Vec3(-1, 0, 0), Vec3(-1, 0, 0)};
+  double mean = 0;
+  for (uint32_t i = 0; i < 4096; ++i) mean += static_cast<double>(lamps.illuminance(wall, 7, i).g) / 4096;
+  EXPECT_NEAR(mean, on_axis(1), 0.01 * on_axis(1));
+  EXPECT_THROW(find_move(room.scene, room.lamps, "bulb", {Vec3(0), Vec3(0, 1, 0)}, "--move"), UsageError);
+  EXPECT_THROW(find_move(room.scene, room.lamps, "lamp", {Vec3(0), Vec3(0)}, "--move"), UsageError);
+}
+
+// Of a group of which some lamps move its layer stays, and only they come by transfer.
+TEST(MovedLamps, OneOfAGroupLeavesTheOthersInTheirLayer) {
+  Scene scene = lamp_scene();
+  scene.lights.push_back(scene.lights[0]);
+  scene.lights[1].name = "other bulb";
+  for (Light& light : scene.lights) light.group_name = "bulbs";
+  const Room room(scene);
+  const LampMove move = find_move(room.scene, room.lamps, "other bulb", {Vec3(3, 1, 0)}, "--move");
+  const auto taken = [&](bool whole, double* weight) {
+    MixSpec lightmap{std::vector<Rgb>(room.scene.groups.size(), Rgb(0.5f))};
+    const std::vector<MovedGroup> out = take_lamps(room.lamps, {}, {&move, 1}, whole, lightmap);
+    *weight = static_cast<double>(lightmap.weights[room.group("bulbs").value].g);
+    return out;
+  };
+  double weight = 0;
+  const std::vector<MovedGroup> part = taken(false, &weight);
+  EXPECT_EQ(weight, 0.5);
+  EXPECT_EQ(in_part(part).size(), 1u);
+  const MovedLamps one(room.scene, room.world, room.tracer, {}, part, {&move, 1});
+  EXPECT_NEAR(sampled(one, Vec3(3, 0, 0), 1).mean, 0.5 * 4, 1e-5);
+  const std::vector<MovedGroup> all = taken(true, &weight);
+  EXPECT_EQ(weight, 0);
+  EXPECT_TRUE(in_part(all).empty());
+  const MovedLamps both(room.scene, room.world, room.tracer, {}, all, {&move, 1});
+  EXPECT_NEAR(sampled(both, Vec3(3, 0, 0), 1).mean, 0.5 * (4 + 4 / 4.0), 1e-5);
 }
 
 TEST(MovedLamps, UnknownNamesAndSunsAreRefused) {
@@ -105,8 +146,8 @@ TEST(MovedLamps, UnknownNamesAndSunsAreRefused) {
   sun.intensity = Rgb(1);
   scene.lights.push_back(sun);
   const Room room(scene);
-  EXPECT_THROW(find_move(room.scene, room.lamps, "bulbs", Vec3(0), "--move"), UsageError);
-  EXPECT_THROW(find_move(room.scene, room.lamps, "noon", Vec3(0), "--move"), UsageError);
+  EXPECT_THROW(find_move(room.scene, room.lamps, "bulbs", {Vec3(0)}, "--move"), UsageError);
+  EXPECT_THROW(find_move(room.scene, room.lamps, "noon", {Vec3(0)}, "--move"), UsageError);
 }
 
 TEST(MovedLamps, LampsInsideThingsAreFound) {
@@ -115,7 +156,7 @@ TEST(MovedLamps, LampsInsideThingsAreFound) {
           Vec3(3.5f, 2.5f, 0.5f), false);
   const Room room(scene);
   EXPECT_EQ(room.moved("bulb").buried(), std::vector<std::string>{"bulb"});
-  const LampMove out = find_move(room.scene, room.lamps, "bulb", Vec3(3, 4, 0), "--move");
+  const LampMove out = find_move(room.scene, room.lamps, "bulb", {Vec3(3, 4, 0)}, "--move");
   EXPECT_TRUE(room.moved("bulb", {&out, 1}).buried().empty());
 }
 

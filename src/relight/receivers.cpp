@@ -129,7 +129,11 @@ RelightReceivers vertex_receivers(const TracedScene& traced) {
 
 void add_to_pages(const Package& package, const View& view, const Operator& op, std::span<const Rgb> light,
                   std::vector<Image>& pages) {
-  const Atlas atlas = package_atlas(package, view);
+  add_to_pages(package_atlas(package, view), op, light, pages);
+}
+
+void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light,
+                  std::vector<Image>& pages) {
   const std::size_t page_size = static_cast<std::size_t>(op.width) * static_cast<std::size_t>(op.height);
   for (int page = 0; page < op.pages; ++page) {
     Image own = Image::rgb(op.width, op.height);

@@ -38,6 +38,9 @@ RelightReceivers texel_receivers(const Package& package, const View& view, const
 /// @param light  per receiver, lux
 void add_to_pages(const Package& package, const View& view, const Operator& op, std::span<const Rgb> light,
                   std::vector<Image>& pages);
+/// The same where the package's atlas is at hand.
+void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light,
+                  std::vector<Image>& pages);
 
 /// What the middles of pixels see; pixels that see nothing or a black back are none. The view must outlive
 /// it.

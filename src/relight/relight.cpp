@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/sobol.h"
-#include "transfer/folded_bounces.h"
 
 namespace sconce {
 
@@ -13,17 +12,12 @@ namespace {
 
 constexpr uint32_t kNone = 0xffffffffu, kSeenStream = 0x7365656eu;
 
-SurfacePoint point_of(const OperatorPoint& p) {
-  return {Vec3(p.position[0], p.position[1], p.position[2]), unpack_normal(p.shading),
-          unpack_normal(p.geometric)};
-}
-
 }  // namespace
 
-Relighter::Relighter(const Package& package, const View& view, const Operator& op, const MovedLamps& lamps)
+Relighter::Relighter(const Package& package, const View& view, const Operator& op,
+                     const FoldedBounces& bounces, const MovedLamps& lamps)
     : package_(package), view_(view), op_(op), lamps_(lamps) {
   using Clock = std::chrono::steady_clock;
-  const FoldedBounces bounces(op);
   const auto start = Clock::now();
   std::vector<Rgbx> light = light_cloud(op, lamps);
   const auto lit = Clock::now();

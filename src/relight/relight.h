@@ -4,13 +4,15 @@
 
 #include "relight/moved_lamps.h"
 #include "relight/receivers.h"
+#include "transfer/folded_bounces.h"
 
 namespace sconce {
 
 class Relighter {
  public:
-  /// Lights the cloud and sends its light to all receivers. All must outlive it.
-  Relighter(const Package& package, const View& view, const Operator& op, const MovedLamps& lamps);
+  /// Lights the cloud and sends its light to all receivers. All but the bounces must outlive it.
+  Relighter(const Package& package, const View& view, const Operator& op, const FoldedBounces& bounces,
+            const MovedLamps& lamps);
 
   /// E_i per receiver, lux.
   const std::vector<Rgb>& indirect() const { return indirect_; }

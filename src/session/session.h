@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "mix/mix.h"
@@ -14,13 +15,17 @@
 
 namespace sconce {
 
-/// What a preset keeps, but for the camera.
+/// Lamps out of their layers: where their middles went, by their number in Lamps::all().
+using MovedPlaces = std::map<std::size_t, Vec3>;
+
+/// What a preset keeps, but for the camera; and where lamps went.
 struct Mood {
   Faders faders;
   bool automatic = false;  ///< exposure follows the mix; else ev100 holds
   double stops = 0;        ///< on top of automatic
   double ev100 = 9;
   std::string tone = "agx";
+  MovedPlaces moved{};
 
   bool operator==(const Mood&) const = default;
 };

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "operator_path.h"
+#include "relight/package_operator.h"
 
 #include <algorithm>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "package/manifest.h"
 #include "relight/precompute.h"
 
 namespace fs = std::filesystem;
 
-namespace sconce::app {
+namespace sconce {
 
 fs::path operator_path(const fs::path& package, const std::string& camera) {
-  return package / "operators" /
+  return package / kOperatorFolder /
          (camera.empty() ? "lightmap.bin" : "camera-" + safe_file_name(camera) + ".bin");
+}
+
+bool has_operator(const Package& package, const std::string& camera) {
+  try {
+    find_operator(package, camera);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 Operator find_operator(const Package& package, const std::string& camera) {
@@ -21,10 +31,11 @@ Operator find_operator(const Package& package, const std::string& camera) {
   std::error_code ec;
   if (!fs::exists(path, ec)) {
     std::vector<std::string> there;
-    for (const auto& entry : fs::directory_iterator(package.path() / "operators", ec))
+    for (const auto& entry : fs::directory_iterator(package.path() / kOperatorFolder, ec))
       if (entry.path().extension() == ".bin") there.push_back(entry.path().stem().string());
     std::sort(there.begin(), there.end());
-    throw Error(path.string(), "no such operator: 'sconce transfer' makes it",
+    throw Error(path.string(),
+                "no such operator: 'sconce transfer' makes it, 'sconce bake --movable' the lightmap's",
                 there.empty() ? "" : join(there, ", "));
   }
   Operator op = open_operator(path);
@@ -33,4 +44,4 @@ Operator find_operator(const Package& package, const std::string& camera) {
   return op;
 }
 
-}  // namespace sconce::app
+}  // namespace sconce

@@ -8,14 +8,17 @@
 #include "package/package.h"
 #include "transfer/operator.h"
 
-namespace sconce::app {
+namespace sconce {
 
 /// NAME.sconce/operators/lightmap.bin, or camera-CAMERA.bin.
 std::filesystem::path operator_path(const std::filesystem::path& package, const std::string& camera);
+
+/// Whether there is one that is whole and of this state of the package.
+bool has_operator(const Package& package, const std::string& camera);
 
 /// The operator of a camera, or of the lightmap for an empty name.
 /// @throws Error when there is none, naming those that there are; when it is damaged or of another state of
 /// the package
 Operator find_operator(const Package& package, const std::string& camera);
 
-}  // namespace sconce::app
+}  // namespace sconce

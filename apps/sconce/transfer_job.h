@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// An operator from a package into it.
+#pragma once
+
+#include "relight/package_operator.h"
+#include "picture_options.h"
+#include "relight/precompute.h"
+
+namespace sconce::app {
+
+struct TransferJob {
+  std::filesystem::path package;
+  PictureOptions picture;  ///< its camera's pixels receive; the lightmap, where it names none
+  TransferParams params;
+  std::string options;  ///< as they were given, for people
+  bool resume = false;
+};
+
+struct MadeOperator {
+  Operator op;
+  std::filesystem::path path;
+};
+/// Makes the operator and writes it. @throws Error, UsageError; Cancelled
+MadeOperator run_transfer_job(const TransferJob& job, const Progress& progress);
+
+/// What was given of options that are not at their defaults.
+std::string given_options(const Options& options);
+
+}  // namespace sconce::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/lamp_mover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "relight/package_operator.h"
+
+namespace sconce {
+
+Movable::Movable(std::shared_ptr<const Opened> opened_, const Progress& progress)
+    : opened(std::move(opened_)),
+      op(find_operator(opened->package, "")),
+      bounces(op),
+      atlas(package_atlas(opened->package, opened->rays)),
+      texels(texel_receivers(opened->rays.traced(), atlas, progress)),
+      lamps(opened->rays.scene(), opened->rays.world()) {}
+
+std::vector<Rgb> Movable::light(std::size_t lamp, const std::optional<Vec3>& at, bool fine,
+                                const Progress& progress) const {
+  const View& view = opened->rays;
+  const Lamp& shape = lamps.all()[lamp];
+  LampMove move{{lamp}, {shape.group}, Mat4(1.0f)};
+  if (at) move.motion = glm::translate(move.motion, *at - place_of(shape).value_or(*at));
+  const MovedGroup alone{shape.group, Rgb(1), {lamp}};
+  const MovedLamps there(view.scene(), view.world(), view.tracer(), {}, {&alone, 1},
+                         {&move, at ? std::size_t{1} : 0});
+  std::vector<Rgb> light =
+      fine ? direct_over_texels(op, texels, there, progress) : direct_at_middles(op, there);
+  const Relighter indirect(opened->package, view, op, bounces, there);
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] += indirect.indirect()[i];
+  return light;
+}
+
+std::vector<std::size_t> LampMover::find(const std::string& name, const std::string& where) const {
+  return find_move(movable_->opened->rays.scene(), movable_->lamps, name, {}, where).lamps;
+}
+
+std::optional<Vec3> LampMover::place(std::size_t lamp, const MovedPlaces& moved) const {
+  const auto it = moved.find(lamp);
+  return it != moved.end() ? it->second : place_of(movable_->lamps.all().at(lamp));
+}
+
+void LampMover::follow(const MovedPlaces& moved) {
+  version_ += std::erase_if(moved_, [&](const auto& item) { return !moved.contains(item.first); });
+  for (const auto& [lamp, at] : moved) {
+    Moved& entry = moved_[lamp];
+    if (entry.before.light.empty()) entry.before = {{}, movable_->light(lamp, {}, false)};
+    if (!entry.now.light.empty() && entry.now.at == at) continue;
+    entry.now = {at, movable_->light(lamp, at, false)};
+    ++version_;
+  }
+}
+
+std::optional<LampMover::Task> LampMover::rough() const {
+  for (const auto& [lamp, entry] : moved_)
+    for (const Lit* lit : {&entry.now, &entry.before})
+      if (!lit->fine) return Task{lamp, lit->at};
+  return std::nullopt;
+}
+
+void LampMover::refine(const Task& task, std::vector<Rgb> light) {
+  const auto it = moved_.find(task.lamp);
+  if (it == moved_.end()) return;
+  for (Lit* lit : {&it->second.now, &it->second.before})
+    if (lit->at == task.at) *lit = {task.at, light, true}, ++version_;
+}
+
+std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {
+  std::vector<LampMove> moves;
+  for (const auto& [lamp, entry] : moved_)
+    moves.push_back({{lamp}, {movable_->lamps.all()[lamp].group}, Mat4(1.0f)});
+  return take_lamps(movable_->lamps, {}, moves, false, mix);
+}
+
+MixSpec LampMover::layers_mix(const MixSpec& mix) const {
+  MixSpec left = mix;
+  taken(left);
+  return left;
+}
+
+void LampMover::add_to(const MixSpec& mix, std::vector<Image>& pages) const {
+  MixSpec left = mix;
+  std::vector<Rgb> leaves(movable_->op.places.size());
+  const std::vector<MovedGroup> groups = taken(left), parts = in_part(groups);
+  for (const auto& [lamp, entry] : moved_) {
+    const Id<LightGroup> group = movable_->lamps.all()[lamp].group;
+    const Rgb weight = mix.weights[group.value];
+    const bool stays =
+        std::any_of(parts.begin(), parts.end(), [&](const MovedGroup& p) { return p.group == group; });
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      leaves[i] -= weight * entry.now.light[i];
+      if (stays) leaves[i] += weight * entry.before.light[i];
+    }
+  }
+  take_share(movable_->atlas, movable_->op, leaves, pages);
+}
+
+std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved) {
+  std::vector<std::string> out;
+  for (const auto& [lamp, at] : moved)
+    out.push_back(
+        fmt::format("{}={:.4f},{:.4f},{:.4f}", mover.movable().lamps.all()[lamp].name, at.x, at.y, at.z));
+  return out;
+}
+
+}  // namespace sconce

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lamps that leave their layers and are moved while one looks: `sconce relight --move` with their direct
+// light on texels, so that every look, exposure and camera follows.
+#pragma once
+
+#include "relight/texel_light.h"
+#include "session/opened.h"
+#include "session/session.h"
+
+namespace sconce {
+
+/// What that needs of a package; made once, beside the window.
+struct Movable {
+  /// @throws Error when the package has no operator for its lightmap
+  explicit Movable(std::shared_ptr<const Opened> opened, const Progress& progress = {});
+  Movable(const Movable&) = delete;
+  Movable& operator=(const Movable&) = delete;
+
+  /// Light of a lamp at unit weight on the operator's texels, direct and indirect, lux.
+  /// @param at    where its middle is; none: where it was baked
+  /// @param fine  by many shadow rays for each texel, else by one
+  std::vector<Rgb> light(std::size_t lamp, const std::optional<Vec3>& at, bool fine,
+                         const Progress& progress = {}) const;
+
+  std::shared_ptr<const Opened> opened;
+  Operator op;
+  FoldedBounces bounces;
+  Atlas atlas;
+  RelightReceivers texels;
+  Lamps lamps;
+};
+
+class LampMover {
+ public:
+  explicit LampMover(std::shared_ptr<const Movable> movable) : movable_(std::move(movable)) {}
+  const Movable& movable() const { return *movable_; }
+  const std::shared_ptr<const Movable>& shared() const { return movable_; }
+
+  /// Lamps of one name, or of a group. @throws UsageError naming those that there are
+  std::vector<std::size_t> find(const std::string& name, const std::string& where) const;
+  /// The middle of a lamp; none where it shines from everywhere.
+  std::optional<Vec3> place(std::size_t lamp, const MovedPlaces& moved) const;
+
+  /// Lights lamps that went elsewhere since, roughly.
+  void follow(const MovedPlaces& moved);
+  /// What is only roughly lit; none where nothing is.
+  struct Task {
+    std::size_t lamp;
+    std::optional<Vec3> at;
+  };
+  std::optional<Task> rough() const;
+  /// Movable::light() of a task, by many rays. One that is out of date is left aside.
+  void refine(const Task& task, std::vector<Rgb> light);
+
+  bool any() const { return !moved_.empty(); }
+  /// Counts changes of light.
+  uint64_t version() const { return version_; }
+
+  /// What layers show, without groups that went as a whole.
+  MixSpec layers_mix(const MixSpec& mix) const;
+  /// Moved lamps come, and leave layers that stay. @param pages  of layers_mix()
+  void add_to(const MixSpec& mix, std::vector<Image>& pages) const;
+
+ private:
+  struct Lit {
+    std::optional<Vec3> at;
+    std::vector<Rgb> light;
+    bool fine = false;
+  };
+  struct Moved {
+    Lit before, now;
+  };
+  std::vector<MovedGroup> taken(MixSpec& mix) const;
+
+  std::shared_ptr<const Movable> movable_;
+  std::map<std::size_t, Moved> moved_;
+  uint64_t version_ = 0;
+};
+
+/// `LAMP=X,Y,Z` of each, as `sconce relight --move` takes them.
+std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved);
+
+}  // namespace sconce
