@@ -128,7 +128,7 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
       std::vector<gpu::LampShader> all =
           gpu::lamp_shaders(job.lamps.lamps(), job.lamps.chosen(), device.patches, device.shadow_side);
       all.insert(all.end(), job.shaders.begin(), job.shaders.end());
-      return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all), *lamps, device);
+      return std::make_unique<GlRelightStage>(job, std::move(context), std::move(all), job.lamps, device);
     } catch (const gpu::UnknownLamp&) {
       if (device.name == "gl" || !job.shaders.empty()) throw;
     }

@@ -17,8 +17,8 @@
 namespace sconce {
 
 struct Preset {
-  std::vector<std::string> assignments;               ///< "GROUP=SETTING" in the file's order
-  std::string others, exposure, ev100, tone, camera;  ///< empty = not given
+  std::vector<std::string> assignments{};                       ///< "GROUP=SETTING" in the file's order
+  std::string others{}, exposure{}, ev100{}, tone{}, camera{};  ///< empty = not given
 };
 
 /// `others` may also stand in [mix]. @throws UsageError naming file, line and key; Error when it cannot be

@@ -29,7 +29,7 @@ struct GroupInfo {
   bool infinite = false;  ///< sky or sun: has no lumens
   double mean_lux = 0;    ///< area-weighted mean of the layer's luminance
   double noise = 0;       ///< relative standard error of the layer, area-weighted rms over texels
-  std::vector<std::string> lamps;
+  std::vector<std::string> lamps{};
   std::string inputs{};  ///< hash of all that the layer was solved from; empty = not known
 };
 
