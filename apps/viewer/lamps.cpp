@@ -150,7 +150,7 @@ void Viewer::lamp_overlay() {
   const std::string line =
       fmt::format("{}   {:.2f}, {:.2f}, {:.2f} m", lamps.mover->movable().lamps.all()[*lamps.chosen].name,
                   place->x, place->y, place->z);
-  const ImVec2 size = ImGui::CalcTextSize(line.c_str()), corner(middle->x + px(12), middle->y + px(10));
+  const ImVec2 size = ImGui::CalcTextSize(line.c_str()), corner(middle->x + px(14), middle->y - px(34));
   draw.AddRectFilled({corner.x - px(6), corner.y - px(3)},
                      {corner.x + size.x + px(6), corner.y + size.y + px(3)}, IM_COL32(18, 19, 21, 215),
                      px(5));

@@ -30,7 +30,7 @@ void check(const TransferParams& params);
 struct TransferWork {
   Progress progress;
   TransferState* state = nullptr;  ///< keeps finished rows of F, to go on after an interruption; may be null
-  Ranks ranks;                     ///< share the rows; all get the operator
+  Ranks ranks{};                   ///< share the rows; all get the operator
 };
 
 /// Rows stream through compression cluster by cluster; F is never held whole. The same bits at any number of
