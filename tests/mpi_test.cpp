@@ -87,6 +87,50 @@ TEST_F(Mpi, AnyNumberOfRanksGivesTheSameBits) {
   }
 }
 
+// An operator, and what is left of one by another number of ranks.
+TEST_F(Mpi, TransferGivesTheSameBitsAndGoesOn) {
+  ASSERT_EQ(test::run_sconce(bake("room.sconce", {"--solver", "path"})).code, 0);
+  const fs::path op = folder / "room.sconce" / "operators" / "lightmap.bin";
+  const Words transfer{"transfer",  (folder / "room.sconce").string(),
+                       "--gather",  "1024",
+                       "--rays",    "64",
+                       "--lights",  "32",
+                       "--threads", "1"};
+  ASSERT_EQ(test::run_sconce(transfer).code, 0);
+  const std::string one = read_file(op);
+  for (const int ranks : {2, 3}) {
+    fs::remove(op);
+    const test::Outcome outcome = test::run_sconce(transfer, mpirun(ranks));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << "said once: " << outcome.out;
+    EXPECT_TRUE(read_file(op) == one) << ranks;
+  }
+  Words on = transfer;
+  on.emplace_back("--resume");
+  fs::remove(op);
+  fs::create_directory(op);  // so that the end cannot be written: the rows stay in the states
+  const test::Outcome stopped = test::run_sconce(transfer, mpirun(2));
+  EXPECT_EQ(stopped.code, 1);
+  EXPECT_NE(stopped.err.find("lightmap.bin"), std::string::npos) << stopped.err;
+  fs::remove(op);
+  const fs::path state = fs::path(op) += ".state", second = fs::path(op) += ".state.1";
+  ASSERT_TRUE(fs::exists(state));
+  ASSERT_TRUE(fs::exists(second));
+  fs::resize_file(second, fs::file_size(second) - 100);
+  ASSERT_EQ(test::run_sconce(on, mpirun(3)).code, 0);
+  constexpr std::size_t kHead = 512;  // names the options, --resume among them
+  EXPECT_TRUE(read_file(op).substr(kHead) == one.substr(kHead));
+  EXPECT_FALSE(fs::exists(state));
+  EXPECT_FALSE(fs::exists(second));
+  // What cannot be is said once, and before anything is written.
+  Words odd = transfer;
+  odd[3] = "1000";
+  const test::Outcome refused = test::run_sconce(odd, mpirun(2));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("a power of four"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(state));
+}
+
 TEST_F(Mpi, ChangedLampIsSolvedAlone) {
   ASSERT_EQ(test::run_sconce(bake("room"), mpirun(2)).code, 0);
   const auto before = bytes("room");

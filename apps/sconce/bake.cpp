@@ -98,17 +98,16 @@ int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const R
 void make_movable(const Request& request, const Options& options, RankSession& session,
                   const Progress& progress) {
   if (!request.movable) return;
-  session.together([&] {
-    if (session.ranks().index != 0 || (!request.force && has_operator(Package::open(request.output), "")))
-      return;
-    TransferJob job;
-    job.package = request.output;
-    job.params.seed = request.job.params.seed;
-    job.resume = request.resume;
-    const MadeOperator made = run_transfer_job(job, progress);
-    if (!options.quiet && !options.json)
-      fmt::print("{}: {} texels, so that lamps may move\n", made.path.string(), made.op.gather.rows);
-  });
+  bool stands = false;
+  session.together([&] { stands = !request.force && has_operator(Package::open(request.output), ""); });
+  if (stands) return;
+  TransferJob job;
+  job.package = request.output;
+  job.params.seed = request.job.params.seed;
+  job.resume = request.resume;
+  const MadeOperator made = run_transfer_job(job, session, progress);
+  if (!options.quiet && !options.json)
+    fmt::print("{}: {} texels, so that lamps may move\n", made.path.string(), made.op.gather.rows);
 }
 
 int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 
 #include "core/error.h"
 
@@ -11,14 +10,11 @@ namespace fs = std::filesystem;
 
 namespace sconce::app {
 
-namespace {
-
-fs::path file_of(fs::path path, int rank) {
+fs::path file_of_rank(fs::path path, int rank) {
   return rank == 0 ? path : path += "." + std::to_string(rank);
 }
 
-/// Files PATH.N that are there, by N.
-std::map<int, fs::path> others(const fs::path& path) {
+std::map<int, fs::path> files_of_others(const fs::path& path) {
   std::map<int, fs::path> found;
   const std::string start = path.filename().string() + ".";
   for (const auto& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".")) {
@@ -31,6 +27,8 @@ std::map<int, fs::path> others(const fs::path& path) {
   }
   return found;
 }
+
+namespace {
 
 BakeState take_up(const fs::path& path, const BakeHeader& header) {
   BakeState state = BakeState::open(path);
@@ -49,10 +47,10 @@ Checkpoint::Checkpoint(const fs::path& path, const BakeHeader& header, bool resu
                        const Progress& progress)
     : path_(path) {
   const Ranks ranks = session.ranks();
-  const fs::path own = file_of(path, ranks.index);
+  const fs::path own = file_of_rank(path, ranks.index);
   session.together([&] {
     if (ranks.index != 0 || resume) return;
-    const auto stale = others(path);
+    const auto stale = files_of_others(path);
     if (fs::exists(path) || !stale.empty())
       progress.warn(path.string() + " of an unfinished bake is replaced (--resume would have continued it)");
     std::error_code ignored;  // what stays in the way is its rank's error
@@ -61,7 +59,7 @@ Checkpoint::Checkpoint(const fs::path& path, const BakeHeader& header, bool resu
   session.together([&] {
     states_.push_back(resume && fs::exists(own) ? take_up(own, header) : BakeState::create(own, header));
     if (ranks.index != 0) return;
-    for (const auto& [rank, file] : others(path))
+    for (const auto& [rank, file] : files_of_others(path))
       if (rank >= ranks.count) states_.push_back(take_up(file, header));
   });
 }
@@ -89,7 +87,7 @@ std::vector<BakeState> Checkpoint::finish(RankSession& session) {
   std::vector<BakeState> all;
   if (ranks.index != 0) return all;
   all.push_back(BakeState::open(path_));
-  for (const auto& [rank, file] : others(path_)) all.push_back(BakeState::open(file));
+  for (const auto& [rank, file] : files_of_others(path_)) all.push_back(BakeState::open(file));
   if (all.size() < static_cast<std::size_t>(ranks.count))
     throw Error(path_.string(), "the other ranks' files beside it cannot be seen",
                 "a folder that all machines share");

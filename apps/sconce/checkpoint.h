@@ -4,11 +4,17 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "ranks.h"
 #include "solve/bake.h"
 
 namespace sconce::app {
+
+/// What a rank of many writes: PATH itself for the first, PATH.N for the others.
+std::filesystem::path file_of_rank(std::filesystem::path path, int rank);
+/// Files PATH.N that are there, by N.
+std::map<int, std::filesystem::path> files_of_others(const std::filesystem::path& path);
 
 class Checkpoint {
  public:

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app.h"
 #include "core/error.h"
@@ -11,17 +12,15 @@
 
 namespace sconce::app {
 
-int run_transfer(int argc, const char* const* argv) {
-  const auto start = std::chrono::steady_clock::now();
+namespace {
+
+/// @return exit code when nothing is left to do
+std::optional<int> read_job(int argc, const char* const* argv, Options& options, TransferJob& job) {
   std::string input;
   bool lightmap = false;
-  TransferJob job;
   PictureOptions& picture = job.picture;
   TransferParams& params = job.params;
   int gather = static_cast<int>(params.gather), seed = 1;
-  Options options("transfer",
-                  "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
-                  "lightmap or on a camera's pixels. 'sconce relight' uses it.");
   options.positional("PACKAGE", &input, "NAME.sconce; the operator goes into NAME.sconce/operators");
   options.flag("--lightmap", &lightmap, "for the lightmap, so that the camera stays free (default)");
   options.option("--camera", &picture.camera, "for the pixels of this camera instead");
@@ -43,18 +42,16 @@ int run_transfer(int argc, const char* const* argv) {
   picture.check();
   params.gather = static_cast<std::size_t>(std::max(0, gather));
   params.seed = static_cast<uint32_t>(seed);
-
-  const ThreadLimit threads(options.threads);
   job.package = input;
   job.options = given_options(options);
-  const auto [op, path] = [&] {
-    const Progress progress = make_progress(options);
-    return run_transfer_job(job, progress);
-  }();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::nullopt;
+}
+
+void report(const MadeOperator& made, const TransferJob& job, double seconds, const Options& options) {
+  const auto& [op, path] = made;
   const auto bytes = std::filesystem::file_size(path);
   if (options.json) {
-    const nlohmann::ordered_json report = {{"input", input},
+    const nlohmann::ordered_json report = {{"input", job.package.string()},
                                            {"output", path.string()},
                                            {"receivers", op.gather.rows},
                                            {"gather", op.slots()},
@@ -68,7 +65,32 @@ int run_transfer(int argc, const char* const* argv) {
     fmt::print("{}: {} receivers, {} samples, {:.1f} MB, {:.1f} s\n", path.string(), op.gather.rows,
                op.slots(), static_cast<double>(bytes) / 1e6, seconds);
   }
-  return kDone;
+}
+
+}  // namespace
+
+int run_transfer(int argc, const char* const* argv) {
+  RankSession session;
+  return session.guard([&] {
+    const auto start = std::chrono::steady_clock::now();
+    Options options(
+        "transfer",
+        "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
+        "lightmap or on a camera's pixels. 'sconce relight' uses it.");
+    TransferJob job;
+    std::optional<int> code;
+    session.together([&] { code = read_job(argc, argv, options, job); });
+    if (code) return *code;
+    const ThreadLimit threads(options.threads);
+    const MadeOperator made = [&] {
+      const Progress progress = make_progress(options);
+      session.watch(progress.stop);
+      return run_transfer_job(job, session, progress);
+    }();
+    report(made, job, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+           options);
+    return int{kDone};
+  });
 }
 
 }  // namespace sconce::app

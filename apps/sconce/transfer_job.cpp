@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "bake_job.h"
+#include "checkpoint.h"
 #include "core/text.h"
 
 namespace fs = std::filesystem;
@@ -29,29 +33,60 @@ std::string given_options(const Options& options) {
   return trim(text);
 }
 
-MadeOperator run_transfer_job(const TransferJob& job, const Progress& progress) {
-  const Package package = Package::open(job.package);
-  const View view(package);
+MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, const Progress& progress) {
+  const Ranks ranks = session.ranks();
+  std::optional<Package> package;
+  std::optional<View> view;
+  std::optional<TransferState> state;
   RelightReceivers receivers;
-  if (job.picture.camera.empty()) {
-    receivers = texel_receivers(package, view, progress);
-  } else {
-    const Camera camera = job.picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
-    const PictureParams size = job.picture.params(camera);
-    receivers = pixel_receivers(view, camera, size.width, size.height);
-  }
+  std::string scene;
   MadeOperator made;
-  made.path = operator_path(package.path(), job.picture.camera);
-  std::error_code ec;
-  fs::create_directory(made.path.parent_path(), ec);
-  const std::string scene = operator_scene(package);
-  TransferState state(fs::path(made.path) += ".state",
-                      fmt::format("{} {} {} {}", SCONCE_VERSION, isa(), scene, key_of(job.params, receivers)),
-                      job.resume);
-  made.op = make_operator(view.traced(), receivers, job.params, scene, {progress, &state});
+  fs::path file;
+  session.together([&] {
+    check(job.params);
+    package.emplace(Package::open(job.package));
+    view.emplace(*package);
+    if (job.picture.camera.empty()) {
+      receivers = texel_receivers(*package, *view, progress);
+    } else {
+      const Camera camera =
+          job.picture.find_camera(view->scene(), [&] { return view->camera("", progress); });
+      const PictureParams size = job.picture.params(camera);
+      receivers = pixel_receivers(*view, camera, size.width, size.height);
+    }
+    scene = operator_scene(*package);
+    made.path = operator_path(package->path(), job.picture.camera);
+    file = fs::path(made.path) += ".state";
+    std::error_code ec;
+    if (ranks.index != 0) return;
+    fs::create_directory(made.path.parent_path(), ec);
+    if (job.resume) return;
+    for (const auto& [rank, other] : files_of_others(file)) fs::remove(other, ec);
+  });
+  // What others left is read by all before any goes on with its own.
+  std::string key;
+  TransferRecords left;
+  session.together([&] {
+    key = fmt::format("{} {} {} {}", SCONCE_VERSION, isa(), scene, key_of(job.params, receivers));
+    check_agreement(key, ranks);
+    if (!job.resume) return;
+    std::vector<fs::path> files;
+    for (const auto& [rank, other] : files_of_others(file)) files.push_back(other);
+    if (fs::exists(file)) files.push_back(file);
+    left = read_transfer_records(files, key);
+  });
+  session.together([&] { state.emplace(file_of_rank(file, ranks.index), key, job.resume, std::move(left)); });
+  made.op = make_operator(view->traced(), receivers, job.params, scene, {progress, &*state, ranks});
   made.op.options = job.options;
-  write_operator(made.path, made.op);
-  state.remove();
+  session.together([&] {
+    if (ranks.index == 0) write_operator(made.path, made.op);
+  });
+  state->remove();
+  session.together([&] {
+    std::error_code ec;
+    if (ranks.index == 0)
+      for (const auto& [rank, other] : files_of_others(file)) fs::remove(other, ec);
+  });
   return made;
 }
 

@@ -2,8 +2,9 @@
 // An operator from a package into it.
 #pragma once
 
-#include "relight/package_operator.h"
 #include "picture_options.h"
+#include "ranks.h"
+#include "relight/package_operator.h"
 #include "relight/precompute.h"
 
 namespace sconce::app {
@@ -20,8 +21,8 @@ struct MadeOperator {
   Operator op;
   std::filesystem::path path;
 };
-/// Makes the operator and writes it. @throws Error, UsageError; Cancelled
-MadeOperator run_transfer_job(const TransferJob& job, const Progress& progress);
+/// Makes the operator, all ranks together, and writes it. @throws Error, UsageError; Cancelled
+MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, const Progress& progress);
 
 /// What was given of options that are not at their defaults.
 std::string given_options(const Options& options);

@@ -40,12 +40,16 @@ void Viewer::light_lamps() {
   if (auto movable = preparing_.take()) state_.lamps.mover = std::make_unique<LampMover>(*movable);
   LampMover* mover = state_.lamps.mover.get();
   if (mover == nullptr) return;
-  if (auto fine = refining_.take()) mover->refine(fine->first, std::move(fine->second));
+  if (const auto fine = refining_.take()) {
+    mover->refine(*fine);
+    if (fine->inside)
+      note("lamp '" + mover->movable().lamps.all()[fine->task.lamp].name + "' stands inside something");
+  }
   mover->follow(state_.session->mood().moved);
   const auto rough = mover->rough();
   if (!rough || refining_.running() || state_.lamps.grip != Grip::none) return;
   refining_.start([movable = mover->shared(), task = *rough](const Progress& progress, const auto& publish) {
-    publish(std::pair(task, movable->light(task.lamp, task.at, true, progress)));
+    publish(LampMover::light(*movable, task, progress));
   });
 }
 
@@ -146,7 +150,7 @@ void Viewer::lamp_overlay() {
   const std::string line =
       fmt::format("{}   {:.2f}, {:.2f}, {:.2f} m", lamps.mover->movable().lamps.all()[*lamps.chosen].name,
                   place->x, place->y, place->z);
-  const ImVec2 size = ImGui::CalcTextSize(line.c_str()), corner(middle->x + px(12), middle->y + px(10));
+  const ImVec2 size = ImGui::CalcTextSize(line.c_str()), corner(middle->x + px(14), middle->y - px(34));
   draw.AddRectFilled({corner.x - px(6), corner.y - px(3)},
                      {corner.x + size.x + px(6), corner.y + size.y + px(3)}, IM_COL32(18, 19, 21, 215),
                      px(5));

@@ -269,7 +269,12 @@ void Viewer::save_package(fs::path target) {
 
 Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
-  return state_.opened->meter(mix, Mixer(state_.opened->layers).mix(mix));
+  const LampMover* mover = state_.lamps.mover.get();
+  if (mover == nullptr || !mover->any())
+    return state_.opened->meter(mix, Mixer(state_.opened->layers).mix(mix));
+  std::vector<Image> pages = Mixer(state_.opened->layers).mix(mover->layers_mix(mix));
+  mover->add_to(mix, pages);
+  return state_.opened->meter(mix, pages);
 }
 
 void Viewer::note(const std::string& line) {

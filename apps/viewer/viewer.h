@@ -150,7 +150,7 @@ class Viewer {
   Background<std::filesystem::path> baking_;
   Background<MeasuredLight> measuring_, tracing_;
   Background<std::shared_ptr<const Movable>> preparing_;
-  Background<std::pair<LampMover::Task, std::vector<Rgb>>> refining_;
+  Background<LampMover::Fine> refining_;
   std::optional<ReferencePicture> reference_;
   std::optional<MeasuredLight> traced_;
   bool drawing_more_ = false, want_shot_ = false;

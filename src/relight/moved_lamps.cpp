@@ -135,7 +135,7 @@ std::vector<std::string> MovedLamps::buried() const {
   std::vector<std::string> names;
   for (const Chosen& chosen : chosen_) {
     const Lamp& lamp = lamps_.all()[chosen.lamp];
-    if (std::holds_alternative<MeshLamp>(lamp.shape)) continue;  // stands in its own body
+    if (chosen.met) continue;  // stands in its own body
     const auto place = place_of(lamp);
     if (!place) continue;
     uint32_t backs = 0;
@@ -144,7 +144,8 @@ std::vector<std::string> MovedLamps::buried() const {
       const float z = 1 - 2 * u.x, radius = std::sqrt(std::max(0.0f, 1 - z * z));
       const Hit hit = tracer_.closest(
           {*place, Vec3(radius * std::cos(2 * kPi * u.y), radius * std::sin(2 * kPi * u.y), z)});
-      backs += hit && hit.back && !scene_[world_.materials[hit.triangle]].double_sided ? 1 : 0;
+      const bool own = hit && lamps_.lamp_of(hit.triangle) == static_cast<int>(chosen.lamp);
+      backs += hit && hit.back && !own && !scene_[world_.materials[hit.triangle]].double_sided ? 1 : 0;
     }
     if (2 * backs > kRays) names.push_back(lamp.name);
   }

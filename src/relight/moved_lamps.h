@@ -17,6 +17,8 @@ class MovedLamps {
   /// from its new place through its old body: geometry stays.
   MovedLamps(const Scene& scene, const World& world, const Tracer& tracer, const std::vector<Light>& lights,
              std::span<const MovedGroup> groups, std::span<const LampMove> moves = {});
+  MovedLamps(const MovedLamps&) = delete;
+  MovedLamps& operator=(const MovedLamps&) = delete;
 
   std::size_t size() const { return chosen_.size(); }
   /// All lamps, and which of them are moved, with their weights: for other devices.

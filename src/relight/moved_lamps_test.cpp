@@ -158,6 +158,9 @@ TEST(MovedLamps, LampsInsideThingsAreFound) {
   EXPECT_EQ(room.moved("bulb").buried(), std::vector<std::string>{"bulb"});
   const LampMove out = find_move(room.scene, room.lamps, "bulb", {Vec3(3, 4, 0)}, "--move");
   EXPECT_TRUE(room.moved("bulb", {&out, 1}).buried().empty());
+  const LampMove in = find_move(room.scene, room.lamps, "lamp", {Vec3(3, 2, 0)}, "--move");
+  EXPECT_EQ(room.moved("lamp", {&in, 1}).buried(), std::vector<std::string>{"lamp"});
+  EXPECT_TRUE(room.moved("lamp").buried().empty());
 }
 
 }  // namespace

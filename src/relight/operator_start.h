@@ -26,15 +26,17 @@ struct OperatorStart {
   Operator op;                        ///< all but the matrices, their albedos and the scene's hash
 };
 
-/// Calls f(block) for all blocks on all threads, and tells how many are done.
+/// Calls f(block) for this rank's blocks on all threads, and tells how many are done.
 template <class F>
-void for_blocks(std::size_t blocks, const char* stage, const Progress& progress, const F& f) {
+void for_blocks(std::size_t blocks, const char* stage, const TransferWork& work, const F& f) {
+  const Progress& progress = work.progress;
   std::atomic<uint64_t> done = 0;
   progress.at(stage, 0, blocks);
   parallel_for(blocks, 1, [&](std::size_t b) {
+    if (!work.ranks.mine(b)) return;
     progress.check();
     f(b);
-    progress.at(stage, ++done, blocks);
+    progress.at(stage, std::min<uint64_t>(done += static_cast<uint64_t>(work.ranks.count), blocks), blocks);
   });
 }
 

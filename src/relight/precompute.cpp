@@ -16,25 +16,6 @@ namespace {
 constexpr uint32_t kSlotCluster = 2048;  // slots that share a basis of the bounces
 constexpr uint32_t kGatherStream = 0x66696e61u, kBounceStream = 0x626f756eu;
 
-void check(const TransferParams& p) {
-  if (!is_power_of_four(p.gather) || p.gather < 256 || p.gather > 65536)
-    throw UsageError("option '--gather'", fmt::format("{} samples", p.gather),
-                     "a power of four: 256, 1024, 4096, 16384, 65536");
-  const auto positive = [](const char* option, int value, int most) {
-    if (value < 1 || value > most)
-      throw UsageError(fmt::format("option '{}'", option), std::to_string(value),
-                       fmt::format("1 to {}", most));
-  };
-  positive("--rays", p.rays, 1 << 20);
-  positive("--cluster", p.cluster, 65536);
-  if (p.cluster % 16 != 0)
-    throw UsageError("option '--cluster'", std::to_string(p.cluster), "a multiple of 16");
-  positive("--lights", p.lights, 4096);
-  positive("--coefficients", p.coefficients, 65536);
-  positive("--bounce-coefficients", p.bounce_coefficients, 65536);
-  positive("--points", p.points, 256);
-}
-
 /// Hits of one receiver's rays as a sparse row.
 class RowMaker {
  public:
@@ -108,6 +89,13 @@ std::vector<std::vector<SparseEntry>> make_rows(const RowMaker& prototype, std::
   return rows;
 }
 
+/// Clusters that ranks made, to all of them.
+void share(ClusterRowsBuilder& builder, const Ranks& ranks) {
+  ranks.share(
+      builder.clusters(), [&](std::size_t c, std::string& bytes) { builder.pack(c, bytes); },
+      [&](std::size_t c, std::string_view& bytes) { builder.unpack(c, bytes); });
+}
+
 /// The cloud's own light: `first` and `bounce`, their albedos and sweeps.
 /// @param lights  per lamp: b_d per slot
 void make_bounces(const TracedScene& traced, const TransferParams& params, const OperatorStart& start,
@@ -134,21 +122,34 @@ void make_bounces(const TracedScene& traced, const TransferParams& params, const
   };
   constexpr std::size_t kRowBlock = 256;
   std::vector<std::vector<SparseEntry>> rows(slots);
-  for_blocks((slots + kRowBlock - 1) / kRowBlock, "bounce rows", work.progress, [&](std::size_t block) {
+  const std::size_t blocks = (slots + kRowBlock - 1) / kRowBlock;
+  for_blocks(blocks, "bounce rows", work, [&](std::size_t block) {
     auto made = make_rows(maker, kRowBlock * block, std::min(kRowBlock, slots - kRowBlock * block),
                           work.progress, slot_row);
     std::move(made.begin(), made.end(), rows.begin() + static_cast<std::ptrdiff_t>(kRowBlock * block));
   });
+  const auto rows_of = [&](std::size_t block) {
+    return std::span(rows).subspan(kRowBlock * block, std::min(kRowBlock, slots - kRowBlock * block));
+  };
+  work.ranks.share(
+      blocks,
+      [&](std::size_t block, std::string& bytes) {
+        for (const std::vector<SparseEntry>& row : rows_of(block)) put_vector(bytes, row);
+      },
+      [&](std::size_t block, std::string_view& bytes) {
+        for (std::vector<SparseEntry>& row : rows_of(block)) take_vector(bytes, row);
+      });
   // The same rows twice: for direct light, whose edges are sharp, and for what was reflected and is even.
   const auto fit = [&](std::span<const std::vector<Rgbx>> lit, int coefficients, ClusterRows& out) {
     const TrainingLight light(transformed_luminance(lit));
     ClusterRowsBuilder builder(slots, light,
                                {kSlotCluster, static_cast<std::size_t>(coefficients), params.keep_sums});
-    for_blocks(builder.clusters(), "bounces", work.progress, [&](std::size_t c) {
+    for_blocks(builder.clusters(), "bounces", work, [&](std::size_t c) {
       const std::size_t first = kSlotCluster * c;
       builder.set_cluster(c,
                           std::span(rows).subspan(first, std::min<std::size_t>(kSlotCluster, slots - first)));
     });
+    share(builder, work.ranks);
     auto made = builder.finish();
     out = made.rows;
     op.owners.push_back(made.owner);
@@ -179,7 +180,7 @@ void make_gather(const TracedScene& traced, const RelightReceivers& receivers, c
   ClusterRowsBuilder gather(
       static_cast<uint32_t>(count), light,
       {static_cast<uint32_t>(cluster), static_cast<std::size_t>(params.coefficients), params.keep_sums});
-  for_blocks(gather.clusters(), "gather rows", work.progress, [&](std::size_t c) {
+  for_blocks(gather.clusters(), "gather rows", work, [&](std::size_t c) {
     if (work.state != nullptr)
       if (std::string_view bytes = work.state->find(c); !bytes.empty()) return gather.unpack(c, bytes);
     gather.set_cluster(
@@ -189,12 +190,32 @@ void make_gather(const TracedScene& traced, const RelightReceivers& receivers, c
     gather.pack(c, bytes);
     work.state->put(c, bytes);
   });
+  share(gather, work.ranks);
   auto made = gather.finish();
   op.gather = made.rows;
   op.owners.push_back(made.owner);
 }
 
 }  // namespace
+
+void check(const TransferParams& p) {
+  if (!is_power_of_four(p.gather) || p.gather < 256 || p.gather > 65536)
+    throw UsageError("option '--gather'", fmt::format("{} samples", p.gather),
+                     "a power of four: 256, 1024, 4096, 16384, 65536");
+  const auto positive = [](const char* option, int value, int most) {
+    if (value < 1 || value > most)
+      throw UsageError(fmt::format("option '{}'", option), std::to_string(value),
+                       fmt::format("1 to {}", most));
+  };
+  positive("--rays", p.rays, 1 << 20);
+  positive("--cluster", p.cluster, 65536);
+  if (p.cluster % 16 != 0)
+    throw UsageError("option '--cluster'", std::to_string(p.cluster), "a multiple of 16");
+  positive("--lights", p.lights, 4096);
+  positive("--coefficients", p.coefficients, 65536);
+  positive("--bounce-coefficients", p.bounce_coefficients, 65536);
+  positive("--points", p.points, 256);
+}
 
 Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
                        const TransferParams& params, const std::string& scene, const TransferWork& work) {

@@ -23,14 +23,18 @@ struct TransferParams {
   uint32_t seed = 1;
 };
 
+/// @throws UsageError naming the option
+void check(const TransferParams& params);
+
 /// How the work is done; nothing of it changes the result.
 struct TransferWork {
   Progress progress;
   TransferState* state = nullptr;  ///< keeps finished rows of F, to go on after an interruption; may be null
+  Ranks ranks{};                   ///< share the rows; all get the operator
 };
 
 /// Rows stream through compression cluster by cluster; F is never held whole. The same bits at any number of
-/// threads.
+/// threads and ranks.
 /// @param scene  hash that ties the file to its package: operator_scene()
 /// @throws UsageError naming the option; Cancelled
 Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,

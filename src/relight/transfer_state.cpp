@@ -23,28 +23,40 @@ std::string head(const std::string& key) {
   return bytes;
 }
 
+/// @return bytes of the file that are whole
+std::size_t take_up(const std::filesystem::path& path, const std::string& begin, TransferRecords& records) {
+  const std::string file = read_file(path);
+  if (!file.starts_with(begin))
+    throw Error(path.string(), "belongs to an operator made otherwise", "the same options, or no --resume");
+  std::string_view left = std::string_view(file).substr(begin.size());
+  std::size_t whole = begin.size();
+  while (left.size() >= sizeof(RecordHead)) {
+    RecordHead record{};
+    take_span(left, std::span(&record, 1));
+    if (record.bytes > left.size() || XXH3_64bits(left.data(), record.bytes) != record.checksum) break;
+    records[record.cluster] = left.substr(0, record.bytes);
+    left.remove_prefix(record.bytes);
+    whole += sizeof record + record.bytes;
+  }
+  return whole;
+}
+
 }  // namespace
 
-TransferState::TransferState(const std::filesystem::path& path, const std::string& key, bool resume)
-    : path_(path) {
+TransferRecords read_transfer_records(std::span<const std::filesystem::path> files, const std::string& key) {
+  TransferRecords records;
+  for (const std::filesystem::path& file : files) take_up(file, head(key), records);
+  return records;
+}
+
+TransferState::TransferState(const std::filesystem::path& path, const std::string& key, bool resume,
+                             TransferRecords more)
+    : path_(path), records_(std::move(more)) {
   const std::string begin = head(key);
   std::error_code ec;
   if (resume && std::filesystem::exists(path, ec)) {
-    const std::string file = read_file(path);
-    if (!file.starts_with(begin))
-      throw Error(path.string(), "belongs to an operator made otherwise", "the same options, or no --resume");
-    std::string_view left = std::string_view(file).substr(begin.size());
-    std::size_t whole = begin.size();
-    while (left.size() >= sizeof(RecordHead)) {
-      RecordHead record{};
-      take_span(left, std::span(&record, 1));
-      if (record.bytes > left.size() || XXH3_64bits(left.data(), record.bytes) != record.checksum) break;
-      records_[record.cluster] = left.substr(0, record.bytes);
-      left.remove_prefix(record.bytes);
-      whole += sizeof record + record.bytes;
-    }
     // What an interruption cut off is made again; what stands stays on disk meanwhile.
-    std::filesystem::resize_file(path, whole, ec);
+    std::filesystem::resize_file(path, take_up(path, begin, records_), ec);
     file_.reset(std::fopen(path.c_str(), "ab"));
     if (ec || !file_) throw Error(path.string(), "cannot be written");
     return;

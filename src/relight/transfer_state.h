@@ -7,17 +7,25 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace sconce {
 
+/// Finished records, by cluster.
+using TransferRecords = std::map<std::size_t, std::string>;
+/// Those of files that other processes left. @throws Error when one belongs to another operator
+TransferRecords read_transfer_records(std::span<const std::filesystem::path> files, const std::string& key);
+
 class TransferState {
  public:
   /// @param key     names the operator; records of another one are not taken up
   /// @param resume  take up what is there; else it is replaced
+  /// @param more    taken up, too
   /// @throws Error when it belongs to another operator, or cannot be written
-  TransferState(const std::filesystem::path& path, const std::string& key, bool resume);
+  TransferState(const std::filesystem::path& path, const std::string& key, bool resume,
+                TransferRecords more = {});
   /// A record that was taken up; empty where there is none.
   std::string_view find(std::size_t cluster) const;
   std::size_t size() const { return records_.size(); }
@@ -31,7 +39,7 @@ class TransferState {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::filesystem::path path_;
-  std::map<std::size_t, std::string> records_;
+  TransferRecords records_;
   std::unique_ptr<std::FILE, Close> file_;
   std::mutex mutex_;
 };

@@ -18,18 +18,20 @@ Movable::Movable(std::shared_ptr<const Opened> opened_, const Progress& progress
       texels(texel_receivers(opened->rays.traced(), atlas, progress)),
       lamps(opened->rays.scene(), opened->rays.world()) {}
 
-std::vector<Rgb> Movable::light(std::size_t lamp, const std::optional<Vec3>& at, bool fine,
-                                const Progress& progress) const {
+MovedLamps Movable::alone(std::size_t lamp, const std::optional<Vec3>& at) const {
   const View& view = opened->rays;
   const Lamp& shape = lamps.all()[lamp];
   LampMove move{{lamp}, {shape.group}, Mat4(1.0f)};
   if (at) move.motion = glm::translate(move.motion, *at - place_of(shape).value_or(*at));
-  const MovedGroup alone{shape.group, Rgb(1), {lamp}};
-  const MovedLamps there(view.scene(), view.world(), view.tracer(), {}, {&alone, 1},
-                         {&move, at ? std::size_t{1} : 0});
+  const MovedGroup group{shape.group, Rgb(1), {lamp}};
+  return MovedLamps(view.scene(), view.world(), view.tracer(), {}, {&group, 1},
+                    {&move, at ? std::size_t{1} : 0});
+}
+
+std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
   std::vector<Rgb> light =
-      fine ? direct_over_texels(op, texels, there, progress) : direct_at_middles(op, there);
-  const Relighter indirect(opened->package, view, op, bounces, there);
+      fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp);
+  const Relighter indirect(opened->package, opened->rays, op, bounces, lamp);
   for (std::size_t i = 0; i < light.size(); ++i) light[i] += indirect.indirect()[i];
   return light;
 }
@@ -47,9 +49,9 @@ void LampMover::follow(const MovedPlaces& moved) {
   version_ += std::erase_if(moved_, [&](const auto& item) { return !moved.contains(item.first); });
   for (const auto& [lamp, at] : moved) {
     Moved& entry = moved_[lamp];
-    if (entry.before.light.empty()) entry.before = {{}, movable_->light(lamp, {}, false)};
+    if (entry.before.light.empty()) entry.before = {{}, movable_->light(movable_->alone(lamp, {}), false)};
     if (!entry.now.light.empty() && entry.now.at == at) continue;
-    entry.now = {at, movable_->light(lamp, at, false)};
+    entry.now = {at, movable_->light(movable_->alone(lamp, at), false)};
     ++version_;
   }
 }
@@ -61,11 +63,16 @@ std::optional<LampMover::Task> LampMover::rough() const {
   return std::nullopt;
 }
 
-void LampMover::refine(const Task& task, std::vector<Rgb> light) {
-  const auto it = moved_.find(task.lamp);
+LampMover::Fine LampMover::light(const Movable& movable, const Task& task, const Progress& progress) {
+  const MovedLamps lamp = movable.alone(task.lamp, task.at);
+  return {task, movable.light(lamp, true, progress), task.at && !lamp.buried().empty()};
+}
+
+void LampMover::refine(const Fine& fine) {
+  const auto it = moved_.find(fine.task.lamp);
   if (it == moved_.end()) return;
   for (Lit* lit : {&it->second.now, &it->second.before})
-    if (lit->at == task.at) *lit = {task.at, light, true}, ++version_;
+    if (lit->at == fine.task.at) *lit = {fine.task.at, fine.light, true}, ++version_;
 }
 
 std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {

@@ -16,11 +16,12 @@ struct Movable {
   Movable(const Movable&) = delete;
   Movable& operator=(const Movable&) = delete;
 
-  /// Light of a lamp at unit weight on the operator's texels, direct and indirect, lux.
-  /// @param at    where its middle is; none: where it was baked
+  /// A lamp alone, at unit weight.
+  /// @param at  where its middle is; none: where it was baked
+  MovedLamps alone(std::size_t lamp, const std::optional<Vec3>& at) const;
+  /// Its light on the operator's texels, direct and indirect, lux.
   /// @param fine  by many shadow rays for each texel, else by one
-  std::vector<Rgb> light(std::size_t lamp, const std::optional<Vec3>& at, bool fine,
-                         const Progress& progress = {}) const;
+  std::vector<Rgb> light(const MovedLamps& lamp, bool fine, const Progress& progress = {}) const;
 
   std::shared_ptr<const Opened> opened;
   Operator op;
@@ -49,8 +50,15 @@ class LampMover {
     std::optional<Vec3> at;
   };
   std::optional<Task> rough() const;
-  /// Movable::light() of a task, by many rays. One that is out of date is left aside.
-  void refine(const Task& task, std::vector<Rgb> light);
+  struct Fine {
+    Task task;
+    std::vector<Rgb> light;
+    bool inside = false;  ///< it stands inside something
+  };
+  /// A task, done by many rays; thread-safe.
+  static Fine light(const Movable& movable, const Task& task, const Progress& progress);
+  /// What is out of date is left aside.
+  void refine(const Fine& fine);
 
   bool any() const { return !moved_.empty(); }
   /// Counts changes of light.
