@@ -172,20 +172,17 @@ TEST(Bounces, Furnace) {
   EXPECT_EQ(bounce(rows, rig.cloud, once, 1), once);
 }
 
-/// A red and a green wall, the others white, a block, and two bulbs; per group and sample: direct light, lux.
+/// White, with a red and a green block, and two bulbs; per group and sample: direct
+/// light, lux.
 struct ColouredRoom : Rig {
   static Scene scene_of_it() {
     Scene scene;
     const auto white = add_material(scene, "white", Rgb(0.7f)),
                red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f)),
                green = add_material(scene, "green", Rgb(0.1f, 0.6f, 0.1f));
-    add_quad(scene, "floor", white, Vec3(-1, 0, -1), Vec3(0, 0, 2), Vec3(2, 0, 0));
-    add_quad(scene, "ceiling", white, Vec3(-1, 2, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
-    add_quad(scene, "back", white, Vec3(-1, 0, -1), Vec3(2, 0, 0), Vec3(0, 2, 0));
-    add_quad(scene, "front", white, Vec3(-1, 0, 1), Vec3(0, 2, 0), Vec3(2, 0, 0));
-    add_quad(scene, "left", red, Vec3(-1, 0, -1), Vec3(0, 2, 0), Vec3(0, 0, 2));
-    add_quad(scene, "right", green, Vec3(1, 0, -1), Vec3(0, 0, 2), Vec3(0, 2, 0));
-    add_box(scene, "block", white, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
+    add_box(scene, "room", white, Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
+    add_box(scene, "red", red, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
+    add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
     return scene;
   }
   std::vector<float> direct;  ///< samples x 3 groups
