@@ -172,8 +172,7 @@ TEST(Bounces, Furnace) {
   EXPECT_EQ(bounce(rows, rig.cloud, once, 1), once);
 }
 
-/// White, with a red and a green block, and two bulbs; per group and sample: direct
-/// light, lux.
+/// White, with a red and a green block, lit by two bulbs, a group each.
 struct ColouredRoom : Rig {
   static Scene scene_of_it() {
     Scene scene;
@@ -185,7 +184,7 @@ struct ColouredRoom : Rig {
     add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
     return scene;
   }
-  std::vector<float> direct;  ///< samples x 3 groups
+  std::vector<float> direct;  ///< samples x 3 groups, lux
   static constexpr std::size_t kGroups = 2;
 
   ColouredRoom() : Rig(scene_of_it(), 900) {
@@ -263,9 +262,11 @@ TEST(Bounces, OnAllWaveletCoefficientsAreTheRadiosity) {
     for (int bounces = 0; bounces < kBounces; ++bounces) {
       haar_forward(light);
       for (std::size_t i = 0; i < n; ++i) {
-        e[i] = Rgb();
+        std::array<double, 3> sum{};  // light and dark coefficients cancel
         for (const SparseEntry& c : rows[i])
-          e[i] += c.value * Rgb(light[c.index][0], light[c.index][1], light[c.index][2]);
+          for (std::size_t k = 0; k < 3; ++k)
+            sum[k] += static_cast<double>(c.value) * static_cast<double>(light[c.index][k]);
+        e[i] = Rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
       }
       light = first;
       for (std::size_t i = 0; i < n; ++i) {
