@@ -7,6 +7,7 @@
 #include "gather/lit_scene.h"
 #include "gather/rows.h"
 #include "scene/shapes.h"
+#include "transfer/haar.h"
 
 namespace sconce {
 namespace {
@@ -169,6 +170,139 @@ TEST(Bounces, Furnace) {
   }
   EXPECT_EQ(bounce(rows, rig.cloud, once, 0), std::vector<float>(once.size()));
   EXPECT_EQ(bounce(rows, rig.cloud, once, 1), once);
+}
+
+/// White, with a red and a green block, lit by two bulbs, a group each.
+struct ColouredRoom : Rig {
+  static Scene scene_of_it() {
+    Scene scene;
+    const auto white = add_material(scene, "white", Rgb(0.7f)),
+               red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f)),
+               green = add_material(scene, "green", Rgb(0.1f, 0.6f, 0.1f));
+    add_box(scene, "room", white, Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
+    add_box(scene, "red", red, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
+    add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
+    return scene;
+  }
+  std::vector<float> direct;  ///< samples x 3 groups, lux
+  static constexpr std::size_t kGroups = 2;
+
+  ColouredRoom() : Rig(scene_of_it(), 900) {
+    const Vec3 bulbs[kGroups] = {Vec3(-0.5f, 1.6f, 0.2f), Vec3(0.7f, 0.4f, 0.6f)};
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const SurfacePoint p = cloud.footprint(i).sample(Vec2(0.5f));
+      for (std::size_t g = 0; g < kGroups; ++g) {
+        const Vec3 to = bulbs[g] - p.position;
+        const float d = glm::length(to), cosine = glm::dot(to, p.geometric_normal) / d;
+        const bool dark =
+            !(cosine > 0) || tracer.occluded({offset_origin(p.position, p.geometric_normal, to), to / d, d});
+        const float lux = dark ? 0 : 100 * cosine / (d * d);
+        direct.insert(direct.end(), {lux, g == 0 ? lux : 0.5f * lux, 0.8f * lux});
+      }
+    }
+  }
+  /// What the solver `radiosity` does with it: light on cells, one reflection by the rows' rays, sweeps.
+  struct Solved {
+    SparseRows rows;
+    std::vector<float> once, all;  ///< as `direct`
+  };
+  Solved solve(int bounces) const {
+    std::vector<float> cells(3 * kGroups * cloud.cells());
+    for (uint32_t c = 0; c < cloud.cells(); ++c)
+      std::copy_n(&direct[3 * kGroups * cloud.owner(c).sample], 3 * kGroups, &cells[3 * kGroups * c]);
+    DirectLight light;
+    light.groups = kGroups, light.on_cells = cells;
+    light.make_at_point = [this]() -> DirectAtPoint {
+      return [this](const SurfacePoint& at, uint32_t, std::span<double> sums) {
+        const auto sample = ownership(at);
+        for (std::size_t k = 0; sample && k < sums.size(); ++k)
+          sums[k] += static_cast<double>(direct[sums.size() * *sample + k]);
+      };
+    };
+    Solved out;
+    Gathered gathered = gather(world, tracer, cloud, 64, 1, light);
+    out.once = std::move(gathered.once), out.rows = std::move(gathered.rows);
+    out.all = bounce(out.rows, cloud, out.once, bounces);
+    return out;
+  }
+  /// Sample that speaks for a point of a surface.
+  std::optional<uint32_t> ownership(const SurfacePoint& at) const {
+    const Hit hit = tracer.closest({at.position + 1e-3f * at.geometric_normal, -at.geometric_normal});
+    return hit ? cloud.speaker(at, cloud.cell(hit)) : std::nullopt;
+  }
+};
+
+// 5 and 22: a group by the operator, v_i = F wt(..), all coefficients of all rows kept in full, is the
+// group's radiosity by the same cloud and rays; and both groups together are their sum.
+TEST(Bounces, OnAllWaveletCoefficientsAreTheRadiosity) {
+  constexpr uint32_t kSlots = 1024;
+  constexpr int kBounces = 7;
+  const ColouredRoom room;
+  const std::size_t n = room.cloud.size();
+  ASSERT_LE(n, kSlots);
+  const ColouredRoom::Solved solved = room.solve(kBounces);
+  std::vector<std::vector<SparseEntry>> rows(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<SparseEntry> row;
+    for (uint64_t k = solved.rows.first[i]; k < solved.rows.first[i + 1]; ++k)
+      row.push_back({solved.rows.columns[k], static_cast<float>(solved.rows.counts[k]) * solved.rows.unit});
+    haar_forward(row, kSlots, rows[i]);
+  }
+  const auto relight = [&](float left, float right) {
+    std::vector<Rgb> e(n);
+    std::vector<Rgbx> first(kSlots, Rgbx{});
+    const std::size_t width = 3 * ColouredRoom::kGroups;
+    for (std::size_t i = 0; i < n; ++i) {
+      const float *a = &room.direct[width * i], *b = a + 3;
+      const Rgb lux(left * a[0] + right * b[0], left * a[1] + right * b[1], left * a[2] + right * b[2]);
+      const Rgb out = room.cloud.albedo(i) * lux;
+      first[i] = {out.r, out.g, out.b, 0};
+    }
+    std::vector<Rgbx> light = first;
+    for (int bounces = 0; bounces < kBounces; ++bounces) {
+      haar_forward(light);
+      for (std::size_t i = 0; i < n; ++i) {
+        std::array<double, 3> sum{};  // light and dark coefficients cancel
+        for (const SparseEntry& c : rows[i])
+          for (std::size_t k = 0; k < 3; ++k)
+            sum[k] += static_cast<double>(c.value) * static_cast<double>(light[c.index][k]);
+        e[i] = Rgb(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
+      }
+      light = first;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Rgb out = room.cloud.albedo(i) * e[i];
+        light[i][0] += out.r, light[i][1] += out.g, light[i][2] += out.b;
+      }
+    }
+    return e;
+  };
+  const std::vector<Rgb> left = relight(1, 0), right = relight(0, 1), both = relight(2, 3);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* want = &solved.all[3 * ColouredRoom::kGroups * i];
+    const Rgb a(want[0], want[1], want[2]), b(want[3], want[4], want[5]);
+    for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+      EXPECT_NEAR(left[i].*channel, a.*channel, 1e-5f * a.max()) << i;
+      EXPECT_NEAR(right[i].*channel, b.*channel, 1e-5f * b.max()) << i;
+      EXPECT_NEAR(both[i].*channel, 2 * left[i].*channel + 3 * right[i].*channel, 1e-5f * both[i].max()) << i;
+    }
+  }
+}
+
+// 7. What a sweep changes is no more than the largest albedo of what the last one did.
+TEST(Bounces, SweepsContractByTheAlbedo) {
+  const ColouredRoom room;
+  const ColouredRoom::Solved solved = room.solve(0);
+  std::vector<float> before = bounce(solved.rows, room.cloud, solved.once, 1);
+  double last = 1e30;
+  for (int bounces = 2; bounces < 12; ++bounces) {
+    const std::vector<float> now = bounce(solved.rows, room.cloud, solved.once, bounces);
+    double change = 0;
+    for (std::size_t k = 0; k < now.size(); ++k)
+      change = std::max(change, std::abs(static_cast<double>(now[k] - before[k])));
+    EXPECT_LE(change, 0.7 * last * (1 + 1e-4)) << bounces;
+    EXPECT_GT(change, 0);
+    last = change, before = now;
+  }
 }
 
 TEST(GatherRows, SameBitsAtAnyNumberOfThreads) {

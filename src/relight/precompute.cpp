@@ -13,7 +13,9 @@ namespace sconce {
 
 namespace {
 
-constexpr uint32_t kSlotCluster = 2048;  // slots that share a basis of the bounces
+// Slots that share a basis: for direct light, which differs from one to the next, and for what was reflected
+// and is even. The latter's number of bases is the order of FoldedBounces' matrix.
+constexpr uint32_t kFirstCluster = 256, kBounceCluster = 2048;
 constexpr uint32_t kGatherStream = 0x66696e61u, kBounceStream = 0x626f756eu;
 
 /// Hits of one receiver's rays as a sparse row.
@@ -140,24 +142,24 @@ void make_bounces(const TracedScene& traced, const TransferParams& params, const
         for (std::vector<SparseEntry>& row : rows_of(block)) take_vector(bytes, row);
       });
   // The same rows twice: for direct light, whose edges are sharp, and for what was reflected and is even.
-  const auto fit = [&](std::span<const std::vector<Rgbx>> lit, int coefficients, ClusterRows& out) {
+  const auto fit = [&](std::span<const std::vector<Rgbx>> lit, uint32_t cluster, int coefficients,
+                       ClusterRows& out) {
     const TrainingLight light(transformed_luminance(lit));
     ClusterRowsBuilder builder(slots, light,
-                               {kSlotCluster, static_cast<std::size_t>(coefficients), params.keep_sums});
+                               {cluster, static_cast<std::size_t>(coefficients), params.keep_sums});
     for_blocks(builder.clusters(), "bounces", work, [&](std::size_t c) {
-      const std::size_t first = kSlotCluster * c;
-      builder.set_cluster(c,
-                          std::span(rows).subspan(first, std::min<std::size_t>(kSlotCluster, slots - first)));
+      const std::size_t first = cluster * c;
+      builder.set_cluster(c, std::span(rows).subspan(first, std::min<std::size_t>(cluster, slots - first)));
     });
     share(builder, work.ranks);
     auto made = builder.finish();
     out = made.rows;
     op.owners.push_back(made.owner);
   };
-  fit(lights, params.coefficients, op.first);
+  fit(lights, kFirstCluster, params.coefficients, op.first);
   std::vector<std::vector<Rgbx>> once(lights.size());
   parallel_for(lights.size(), 1, [&](std::size_t t) { once[t] = first_bounce(op, lights[t]); });
-  fit(once, params.bounce_coefficients, op.bounce);
+  fit(once, kBounceCluster, params.bounce_coefficients, op.bounce);
   op.sweeps = enough_sweeps(op.bounce, op.albedo);
 }
 

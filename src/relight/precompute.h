@@ -17,7 +17,7 @@ struct TransferParams {
   int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
   int points = 4;                 ///< per slot, where direct light is asked for
   int lights = 256;               ///< that rows are fitted to
-  bool keep_sums = false;         ///< of rows: even light is exact, lamps a little less so
+  bool keep_sums = false;         ///< of rows: even light is exact, lamps less so (ADR 29)
   /// Per Scene material: share of light that goes straight on behind it, whatever its own adds. Empty: none.
   std::vector<float> transmission;
   uint32_t seed = 1;

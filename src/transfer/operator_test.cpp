@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -102,6 +104,36 @@ TEST(ClusterRows, AnswerLampsTheyDoNotKnow) {
     before = error;
   }
   EXPECT_LT(before, 0.02);
+}
+
+// 24. What sixteen basis rows leave of the training lights' answers is what the singular values beyond the
+// sixteenth say (Eckart and Young 1936), but for quantisation.
+TEST(ClusterRows, LeaveWhatTheSingularValuesSay) {
+  constexpr uint32_t kRows = 32;
+  const TrainingLight light = training();
+  std::vector<std::vector<SparseEntry>> rows(kRows);
+  for (uint32_t r = 0; r < kRows; ++r)
+    for (uint32_t c = 0; c < kSlots; ++c)
+      rows[r].push_back({c, (sobol_pair(c, 0, 100 + r).x - 0.5f) / kSlots});
+  ClusterRowsBuilder builder(kRows, light, {kRows, kSlots});
+  builder.set_cluster(0, rows);
+  const auto made = builder.finish();
+  Eigen::MatrixXd exact(kRows, light.count()), seen(kRows, light.count());
+  for (std::size_t t = 0; t < light.count(); ++t) {
+    std::vector<float> square;
+    for (uint32_t c = 0; c < kSlots; ++c) square.push_back(light.at_column(c)[t]);
+    const std::vector<Rgb> out = product(made.rows, square);
+    for (uint32_t r = 0; r < kRows; ++r) {
+      double sum = 0;
+      for (const SparseEntry& e : rows[r]) sum += static_cast<double>(e.value * square[e.index]);
+      const auto row = static_cast<Eigen::Index>(r), lamp = static_cast<Eigen::Index>(t);
+      exact(row, lamp) = sum, seen(row, lamp) = static_cast<double>(out[r].r);
+    }
+  }
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(exact).singularValues();
+  const double left = values.tail(kRows - static_cast<Eigen::Index>(ClusterRows::kRank)).squaredNorm();
+  EXPECT_GT(left, 1e-4 * values.squaredNorm()) << "else quantisation hides it";
+  EXPECT_NEAR((exact - seen).squaredNorm() / left, 1, 0.05);
 }
 
 TEST(ClusterRows, SameBitsAtAnyNumberOfThreads) {
