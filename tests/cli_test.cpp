@@ -2,6 +2,8 @@
 // The program as a process: exit codes, one clear line per error, nothing half-written.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <fstream>
 
@@ -249,6 +251,18 @@ TEST_F(Baked, MixRenderAndDiff) {
   EXPECT_EQ(run_sconce({"diff", path("a.exr"), path("b.exr"), "--metric", "max", "--fail-above", "0"}).code,
             0);
   EXPECT_EQ(run_sconce({"diff", path("left.exr"), path("b.exr"), "--fail-above", "0.1%"}).code, 3);
+  EXPECT_EQ(render({"right=off", "-o", path("b.png")}).code, 0);
+  EXPECT_EQ(run_sconce({"diff", path("a.png"), path("a.png"), "--metric", "flip", "--fail-above", "0"}).code,
+            0);
+  const Outcome flip = run_sconce({"diff", path("a.png"), path("b.png"), "--metric", "flip", "--fail-above",
+                                   "0.001", "--json", "-o", path("flip.png")});
+  EXPECT_EQ(flip.code, 3) << flip.err;
+  EXPECT_GT(nlohmann::json::parse(flip.out).at("flip"), 0.001);
+  EXPECT_TRUE(fs::exists(path("flip.png")));
+  expect_error(run_sconce({"diff", path("a.exr"), path("b.exr"), "--metric", "flip"}), 1, "diff",
+               {"FLIP", "0 to 1"});
+  expect_error(run_sconce({"diff", path("a.exr"), path("b.exr"), "--metric", "ssim"}), 2, "diff",
+               {"ssim", "flip"});
 }
 
 TEST_F(Baked, UnwritablePictures) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "app.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "image/flip.h"
 #include "image/io.h"
 #include "image/metrics.h"
 #include "image/primaries.h"
@@ -46,7 +49,27 @@ Inputs read_inputs(const std::string& a, const std::string& b, const std::string
   return in;
 }
 
-std::string text_of(const Comparison& all, const RelativeRmse& boxes, const Image& a) {
+struct Figures {
+  Comparison all;
+  RelativeRmse boxes;
+  std::optional<Flip> flip;  ///< of pictures for a display alone
+};
+
+/// What `--metric` may name, with where its value is.
+struct Metric {
+  const char* name;
+  double (*value)(const Figures& figures);
+};
+constexpr std::array kMetrics{
+    Metric{"mse", [](const Figures& f) { return f.all.mse; }},
+    Metric{"relmse", [](const Figures& f) { return f.all.relmse; }},
+    Metric{"max", [](const Figures& f) { return f.all.max; }},
+    Metric{"rmse", [](const Figures& f) { return f.boxes.rmse; }},
+    Metric{"flip", [](const Figures& f) { return f.flip->mean; }},
+};
+
+std::string text_of(const Figures& figures, const Image& a) {
+  const auto& [all, boxes, flip] = figures;
   Table table({{"figure"}, {"value", Table::Align::right}, {"of"}});
   const auto number = [](double v) { return fmt::format("{:.6g}", v); };
   const std::string pixels = fmt::format("{}x{} pixels", a.width, a.height);
@@ -56,23 +79,27 @@ std::string text_of(const Comparison& all, const RelativeRmse& boxes, const Imag
   table.add({"mean ratio", number(boxes.mean_ratio), fmt::format("{} kept pixels", boxes.kept_pixels)});
   table.add({"rmse", fmt::format("{:.4g}%", 100 * boxes.rmse),
              fmt::format("{} kept boxes, reference noise {:.3g}% taken off", boxes.kept, 100 * boxes.noise)});
+  if (flip) table.add({"flip", number(flip->mean), pixels});
   std::string text = table.text();
   if (all.not_finite > 0) text += fmt::format("  {} pixels are not finite\n", all.not_finite);
   return text;
 }
 
-nlohmann::json json_of(const Comparison& all, const RelativeRmse& boxes, const Image& a) {
-  return {{"width", a.width},
-          {"height", a.height},
-          {"mse", all.mse},
-          {"relmse", all.relmse},
-          {"max", all.max},
-          {"rmse", boxes.rmse},
-          {"reference_noise", boxes.noise},
-          {"mean_ratio", boxes.mean_ratio},
-          {"kept_boxes", boxes.kept},
-          {"kept_pixels", boxes.kept_pixels},
-          {"not_finite", all.not_finite}};
+nlohmann::json json_of(const Figures& figures, const Image& a) {
+  const auto& [all, boxes, flip] = figures;
+  nlohmann::json json{{"width", a.width},
+                      {"height", a.height},
+                      {"mse", all.mse},
+                      {"relmse", all.relmse},
+                      {"max", all.max},
+                      {"rmse", boxes.rmse},
+                      {"reference_noise", boxes.noise},
+                      {"mean_ratio", boxes.mean_ratio},
+                      {"kept_boxes", boxes.kept},
+                      {"kept_pixels", boxes.kept_pixels},
+                      {"not_finite", all.not_finite}};
+  if (flip) json["flip"] = flip->mean;
+  return json;
 }
 
 }  // namespace
@@ -84,10 +111,11 @@ int run_diff(int argc, const char* const* argv) {
       "diff", "How far picture A is from reference B (.exr, .hdr, .png, .jpg; compared in linear light).");
   options.positional("A", &a, "picture that is judged");
   options.positional("B", &b, "reference");
-  options.option("--metric", &metric,
-                 "what --fail-above looks at: mse, relmse (squared error over squared reference), max, rmse "
-                 "(relative, of "
-                 "4x4 box means, reference noise taken off)");
+  options.option(
+      "--metric", &metric,
+      "what --fail-above looks at: mse, relmse (squared error over squared reference), max, rmse (relative, "
+      "of 4x4 box means, reference noise taken off), flip (0 to 1: how strongly an eye sees pictures for a "
+      "display differ)");
   options.option("--fail-above", &limit,
                  "exit with 3 when the metric is above this or not a number; accepts 2%");
   options.option("--reference2", &second,
@@ -95,30 +123,34 @@ int run_diff(int argc, const char* const* argv) {
   options.option("--mask", &mask,
                  "coverage of visible emitters: pixels above 0 and their neighbours do not count in "
                  "rmse and mean ratio");
-  options.option("-o,--output", &output, "PNG of the error in false colour, worst 1% of boxes framed");
+  options.option("-o,--output", &output,
+                 "PNG of the error in false colour, worst 1% of boxes framed; with flip, its map");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (metric != "mse" && metric != "relmse" && metric != "max" && metric != "rmse")
-    throw UsageError("--metric", "unknown metric '" + metric + "'", "mse, relmse, max, rmse");
+  const auto chosen =
+      std::find_if(kMetrics.begin(), kMetrics.end(), [&](const Metric& m) { return m.name == metric; });
+  if (chosen == kMetrics.end())
+    throw UsageError("--metric", "unknown metric '" + metric + "'", "mse, relmse, max, rmse, flip");
 
   const ThreadLimit threads(options.threads);
   const Inputs in = read_inputs(a, b, second, mask);
   const Image* kept = in.mask ? &*in.mask : nullptr;
-  const Comparison all = compare(in.a, in.b);
-  const RelativeRmse boxes = relative_rmse(in.a, in.b, in.second ? &*in.second : nullptr, kept);
-  if (!output.empty()) write_png(output, error_picture(in.a, in.b, kept, boxes.boxes));
+  Figures figures{
+      compare(in.a, in.b), relative_rmse(in.a, in.b, in.second ? &*in.second : nullptr, kept), {}};
+  const bool flips = metric == "flip";
+  if (flips || (is_display_light(in.a) && is_display_light(in.b))) figures.flip = flip(in.a, in.b);
+  if (!output.empty())
+    write_png(output,
+              flips ? false_color(figures.flip->map) : error_picture(in.a, in.b, kept, figures.boxes.boxes));
 
-  const double value = metric == "mse"      ? all.mse
-                       : metric == "relmse" ? all.relmse
-                       : metric == "max"    ? all.max
-                                            : boxes.rmse;
+  const double value = chosen->value(figures);
   const bool differs = std::isfinite(limit) && !(value <= limit);
   if (options.json) {
-    nlohmann::json json = json_of(all, boxes, in.a);
+    nlohmann::json json = json_of(figures, in.a);
     json["metric"] = metric;
     json["differs"] = differs;
     fmt::print("{}\n", json.dump(2));
   } else if (!options.quiet) {
-    fmt::print("{}", text_of(all, boxes, in.a));
+    fmt::print("{}", text_of(figures, in.a));
     if (differs) fmt::print("  {} {:.6g} is above {:.6g}\n", metric, value, limit);
   }
   return differs ? kDiffers : kDone;

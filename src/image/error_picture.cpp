@@ -15,7 +15,7 @@ using Code = std::array<unsigned char, 3>;
 constexpr Code kDropped{96, 96, 96}, kNotFinite{255, 0, 255}, kFrame{255, 32, 32};
 
 /// t in [0,1] over six colours of rising lightness.
-Code false_color(double t) {
+Code color_of(double t) {
   constexpr std::array<std::array<double, 3>, 6> kAnchors{
       {{0, 0, 0}, {30, 40, 140}, {0, 130, 160}, {50, 180, 70}, {245, 220, 60}, {255, 255, 255}}};
   const double position = std::clamp(t, 0.0, 1.0) * (kAnchors.size() - 1);
@@ -73,7 +73,7 @@ Image8 error_picture(const Image& a, const Image& b, const Image* mask, const Im
       for (std::size_t c = 0; c < channels; ++c)
         error += std::abs(double{a.at(x, y)[c]} - b.at(x, y)[c]) / static_cast<double>(channels);
       const double t = (std::log10(std::max(error / mean, 1e-9)) + 3) / 3;
-      set(out, x, y, kept[i] == 0 ? kDropped : std::isfinite(error) ? false_color(t) : kNotFinite);
+      set(out, x, y, kept[i] == 0 ? kDropped : std::isfinite(error) ? color_of(t) : kNotFinite);
     }
   const double limit = worst_percent(boxes);
   for (int by = 0; by < boxes.height; ++by)
@@ -81,6 +81,13 @@ Image8 error_picture(const Image& a, const Image& b, const Image* mask, const Im
       const float e = *boxes.at(bx, by);
       if (std::isnan(e) || (e > 0 && e >= limit)) frame_box(out, bx, by);
     }
+  return out;
+}
+
+Image8 false_color(const Image& map) {
+  Image8 out{map.width, map.height, 3, std::vector<unsigned char>(3 * map.pixels())};
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) set(out, x, y, color_of(*map.at(x, y)));
   return out;
 }
 

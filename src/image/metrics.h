@@ -48,4 +48,7 @@ inline constexpr int kBox = 4;  ///< pixels along a box
 /// a red frame.
 Image8 error_picture(const Image& a, const Image& b, const Image* mask, const Image& boxes);
 
+/// The colours of error_picture for values of one channel from 0 (black) to 1 (white).
+Image8 false_color(const Image& map);
+
 }  // namespace sconce

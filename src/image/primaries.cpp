@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/primaries.h"
 
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -12,16 +11,24 @@ namespace sconce {
 
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-double determinant(const Matrix& m) {
+double determinant(const ColorMatrix& m) {
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-Matrix inverse(const Matrix& m) {
-  Matrix out;
+ColorMatrix multiply(const ColorMatrix& a, const ColorMatrix& b) {
+  ColorMatrix out{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k) out[r][c] += a[r][k] * b[k][c];
+  return out;
+}
+
+}  // namespace
+
+ColorMatrix inverse(const ColorMatrix& m) {
+  ColorMatrix out;
   const double d = determinant(m);
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -31,23 +38,20 @@ Matrix inverse(const Matrix& m) {
   return out;
 }
 
-Matrix multiply(const Matrix& a, const Matrix& b) {
-  Matrix out{};
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t k = 0; k < 3; ++k) out[r][c] += a[r][k] * b[k][c];
+std::array<double, 3> transform(const ColorMatrix& m, const std::array<double, 3>& c) {
+  std::array<double, 3> out;
+  for (std::size_t r = 0; r < 3; ++r) out[r] = m[r][0] * c[0] + m[r][1] * c[1] + m[r][2] * c[2];
   return out;
 }
 
-/// Columns are the primaries' XYZ, scaled so that (1, 1, 1) is the white with Y = 1.
-Matrix rgb_to_xyz(const std::array<float, 8>& p) {
-  Matrix m;
+ColorMatrix rgb_to_xyz(const std::array<float, 8>& p) {
+  ColorMatrix m;
   for (std::size_t i = 0; i < 3; ++i) {
     const double x = p[2 * i], y = p[2 * i + 1];
     m[0][i] = x, m[1][i] = y, m[2][i] = 1 - x - y;
   }
   const double white[3] = {p[6] / double{p[7]}, 1.0, (1 - double{p[6]} - double{p[7]}) / double{p[7]}};
-  const Matrix back = inverse(m);
+  const ColorMatrix back = inverse(m);
   for (std::size_t i = 0; i < 3; ++i) {
     const double scale = back[i][0] * white[0] + back[i][1] * white[1] + back[i][2] * white[2];
     for (auto& row : m) row[i] *= scale;
@@ -55,21 +59,17 @@ Matrix rgb_to_xyz(const std::array<float, 8>& p) {
   return m;
 }
 
-}  // namespace
-
 void to_rec709(Image& image) {
   const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
   const std::array<float, 8> from = image.primaries;
   if (r < 0 || g < 0 || b < 0 || from == kRec709Primaries) return;
-  const Matrix m = multiply(inverse(rgb_to_xyz(kRec709Primaries)), rgb_to_xyz(from));
+  const ColorMatrix m = multiply(inverse(rgb_to_xyz(kRec709Primaries)), rgb_to_xyz(from));
   if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return;  // degenerate primaries say nothing
   parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t y) {
     for (int x = 0; x < image.width; ++x) {
       float* p = image.at(x, static_cast<int>(y));
-      const double c[3] = {p[r], p[g], p[b]};
-      p[r] = static_cast<float>(m[0][0] * c[0] + m[0][1] * c[1] + m[0][2] * c[2]);
-      p[g] = static_cast<float>(m[1][0] * c[0] + m[1][1] * c[1] + m[1][2] * c[2]);
-      p[b] = static_cast<float>(m[2][0] * c[0] + m[2][1] * c[1] + m[2][2] * c[2]);
+      const std::array<double, 3> c = transform(m, {p[r], p[g], p[b]});
+      p[r] = static_cast<float>(c[0]), p[g] = static_cast<float>(c[1]), p[b] = static_cast<float>(c[2]);
     }
   });
   image.primaries = kRec709Primaries;

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "image/image.h"
 
 namespace sconce {
+
+using ColorMatrix = std::array<std::array<double, 3>, 3>;  ///< rows
+
+ColorMatrix inverse(const ColorMatrix& m);
+std::array<double, 3> transform(const ColorMatrix& m, const std::array<double, 3>& color);
+/// Columns are the primaries' XYZ, scaled so that (1, 1, 1) is the white with Y = 1.
+ColorMatrix rgb_to_xyz(const std::array<float, 8>& primaries);
 
 /// Converts R, G, B from the image's own primaries and white to Rec. 709 (through CIE XYZ, no chromatic
 /// adaptation) and forgets them. Images without R, G, B or without primaries stay as they are. Precision:
