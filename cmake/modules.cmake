@@ -14,9 +14,9 @@ function(add_sconce_test name)
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
 endfunction()
 
-# Every FILE.glsl of a module becomes "MODULE/FILE.glsl.h", a raw string literal that its C++ twin includes.
+# Every FILE.glsl and FILE.py of a module becomes "MODULE/FILE.h", a raw string literal that its C++ twin includes.
 function(sconce_embed_glsl dir module)
-  file(GLOB shaders CONFIGURE_DEPENDS ${dir}/${module}/*.glsl)
+  file(GLOB shaders CONFIGURE_DEPENDS ${dir}/${module}/*.glsl ${dir}/${module}/*.py)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shaders})
   foreach(shader IN LISTS shaders)
     get_filename_component(file ${shader} NAME)

@@ -6,12 +6,11 @@
 #include <map>
 
 #include "core/files.h"
-#include "core/sobol.h"
 #include "glb_writer.h"
 #include "import/import.h"
 #include "scene/groups.h"
 #include "scene/world.h"
-#include "trace/tracer.h"
+#include "wanderers.h"
 
 namespace sconce::demo {
 namespace {
@@ -65,29 +64,10 @@ TEST(Bathroom, IsClosed) {
   const Scene scene = import_scene(kShipped);
   const World world = make_world(scene);
   const Tracer tracer(scene, world);
-  constexpr uint32_t kRays = 100000;
   const Vec3 starts[] = {{1.6f, 1.3f, 1.6f}, {2.25f, 1.5f, 3.3f}, {2.95f, 1.6f, -0.4f}, {0.5f, 2.2f, 1.0f}};
-  uint32_t shot = 0, lost = 0, backs = 0;
-  for (uint32_t i = 0; i < kRays; ++i) {
-    Vec3 origin = starts[i % 4], normal(0, i % 8 < 4 ? 1 : -1, 0);
-    for (uint32_t bounce = 0; bounce < 4; ++bounce, ++shot) {
-      const Vec2 u = sobol_pair(i, bounce, 1);
-      const float phi = 2 * kPi * u.y, r = std::sqrt(u.x);
-      const Vec3 direction =
-          glm::normalize(Frame(normal).to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)}));
-      const Hit hit = tracer.closest({offset_origin(origin, normal, direction), direction});
-      lost += !hit;
-      if (!hit) break;
-      if (hit.back && !scene[world.materials[hit.triangle]].double_sided) {
-        ++backs;
-        break;
-      }
-      normal = world.face_normals[hit.triangle] * (hit.back ? -1.0f : 1.0f);
-      origin = world.position(hit.triangle, hit.barycentric);
-    }
-  }
-  EXPECT_LE(lost, shot / 100000);
-  EXPECT_LE(backs, shot / 5000);
+  const Strays strays = wander(scene, world, tracer, starts, 100000);
+  EXPECT_LE(strays.lost, strays.shot / 100000);
+  EXPECT_LE(strays.backs, strays.shot / 5000);
 }
 
 /// What may be seen from both sides: leaves and towels. Every other mesh is a solid or a wall: its front is

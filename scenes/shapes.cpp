@@ -75,6 +75,17 @@ void add_rectangle(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v) {
   out.quad({origin, {0, 0}}, {origin + u, {lu, 0}}, {origin + u + v, {lu, lv}}, {origin + v, {0, lv}});
 }
 
+void add_wall(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v, const std::vector<float>& us,
+              const std::vector<float>& vs, const std::function<bool(std::size_t, std::size_t)>& skip) {
+  out.part(1);
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return Corner{origin + us[i] * u + vs[j] * v, {us[i], vs[j]}};
+  };
+  for (std::size_t j = 0; j + 1 < vs.size(); ++j)
+    for (std::size_t i = 0; i + 1 < us.size(); ++i)
+      if (!skip || !skip(i, j)) out.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+}
+
 template <class V>
 std::vector<V> smooth_curve(const std::vector<V>& p, int steps) {
   std::vector<V> out;

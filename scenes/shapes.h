@@ -26,6 +26,11 @@ void add_box(MeshBuilder& out, Vec3 lo, Vec3 hi, float bevel, unsigned open = 0)
 /// origin.
 void add_rectangle(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v);
 
+/// A wall cut by the lines `us` and `vs` (metres from the origin along the unit vectors u and v), without the
+/// cells that `skip(column, row)` names; faces u x v.
+void add_wall(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v, const std::vector<float>& us,
+              const std::vector<float>& vs, const std::function<bool(std::size_t, std::size_t)>& skip = {});
+
 /// Catmull-Rom curve through the points, `steps` pieces between neighbours.
 template <class V>
 std::vector<V> smooth_curve(const std::vector<V>& points, int steps);

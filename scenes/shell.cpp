@@ -7,19 +7,6 @@
 namespace sconce::demo {
 namespace {
 
-/// A wall cut by the lines `us` and `vs` (metres from the origin), without the cells that `skip` names.
-template <class Skip>
-void add_wall(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v, const std::vector<float>& us,
-              const std::vector<float>& vs, Skip skip) {
-  out.part(1);
-  const auto at = [&](std::size_t i, std::size_t j) {
-    return Corner{origin + us[i] * u + vs[j] * v, {us[i], vs[j]}};
-  };
-  for (std::size_t j = 0; j + 1 < vs.size(); ++j)
-    for (std::size_t i = 0; i + 1 < us.size(); ++i)
-      if (!skip(i, j)) out.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-}
-
 struct TileGrid {
   Vec2 tile;  ///< metres
   int columns, rows;
@@ -49,7 +36,6 @@ void add_tiles(MeshBuilder& out, Vec3 origin, Vec3 u, Vec3 v, const TileGrid& gr
 }
 
 constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
-constexpr auto kWhole = [](std::size_t, std::size_t) { return false; };
 
 void add_plaster(Stage& stage) {
   MeshBuilder back, left, right, front, reveals;
@@ -60,7 +46,7 @@ void add_plaster(Stage& stage) {
            {kDado, kWindowLo.y, kWindowHi.y, kHeight},
            [](std::size_t i, std::size_t j) { return i == 1 && j == 1; });
   stage.add("wall left", "plaster", left);
-  add_wall(right, {kWidth, 0, 0}, kZ, kY, {0, kDepth}, {0, kHeight}, kWhole);
+  add_wall(right, {kWidth, 0, 0}, kZ, kY, {0, kDepth}, {0, kHeight});
   stage.add("wall right", "plaster", right);
   add_wall(front, {kWidth, 0, kDepth}, -kX, kY, {0, kWidth - kDoorRight, kWidth - kDoorLeft, kWidth},
            {0, kDoorHeight, kHeight}, [](std::size_t i, std::size_t j) { return i == 1 && j == 0; });
@@ -79,7 +65,7 @@ void add_plaster(Stage& stage) {
 
 void add_ceilings(Stage& stage) {
   MeshBuilder ceiling, shower;
-  add_wall(ceiling, {0, kHeight, 0}, kX, kZ, {0, kWidth}, {0, kDepth}, kWhole);
+  add_wall(ceiling, {0, kHeight, 0}, kX, kZ, {0, kWidth}, {0, kDepth});
   stage.add("ceiling", "ceiling paint", ceiling);
   add_rectangle(shower, {kAlcoveLeft, kAlcoveHeight, -kAlcoveDepth}, kX * (kWidth - kAlcoveLeft),
                 kZ * kAlcoveDepth);

@@ -183,7 +183,7 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   BakeJob& job = request.job;
   options.positional(
       "SCENE", &scene,
-      "glTF, OBJ, FBX, COLLADA, 3DS, PLY or STL file; SCENE.toml beside it adds lights, groups, options");
+      "glTF, OBJ, FBX, COLLADA, 3DS, PLY, STL or Blender file; SCENE.toml beside it adds lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
   options.option("--solver", &job.solver,

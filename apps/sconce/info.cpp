@@ -63,7 +63,7 @@ int run_info(int argc, const char* const* argv) {
   Options options("info", "What is in a scene, a package, or a picture with light groups.");
   options.positional(
       "file", &file,
-      "scene (.glb .gltf .obj .fbx .dae .3ds .ply .stl), package (NAME.sconce) or picture (.exr)");
+      "scene (.glb .gltf .obj .fbx .dae .3ds .ply .stl .blend), package (NAME.sconce) or picture (.exr)");
   options.option("--groups", &groups, "how a scene's lights become groups: auto, named, per-light, one");
   options.option(
       "--groups-from", &groups_from,

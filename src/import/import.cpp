@@ -25,6 +25,7 @@ constexpr Format kFormats[] = {
     {"glTF 2.0 (.gltf, .glb)", import_gltf, gltf_files},
     {"OBJ (.obj)", import_obj, obj_files},
     {"3DS, FBX, COLLADA, PLY, STL (.3ds, .fbx, .dae, .ply, .stl)", import_assimp, assimp_files},
+    {"Blender (.blend)", import_blend, [](const fs::path&) { return std::vector<fs::path>(); }},
 };
 
 Scene read_any(const fs::path& path, const Progress& progress) {
@@ -61,8 +62,8 @@ std::optional<fs::path> side_file_of(const fs::path& scene) {
 }  // namespace
 
 std::span<const std::string_view> scene_endings() {
-  static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx",
-                                                  ".dae", ".3ds",  ".ply", ".stl"};
+  static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx",  ".dae",
+                                                  ".3ds", ".ply",  ".stl", ".blend"};
   return kEndings;
 }
 

@@ -30,6 +30,10 @@ Scene import_obj(const std::filesystem::path& path, const Progress& progress = {
 /// 3DS, FBX, COLLADA, PLY and STL through assimp, by file name ending. @throws NotMyFormat, Error
 Scene import_assimp(const std::filesystem::path& path, const Progress& progress = {});
 
+/// Blender's files, exported by the Blender that $BLENDER or PATH names. What the exporter leaves out is a
+/// warning. @throws NotMyFormat; Error where Blender is missing or fails
+Scene import_blend(const std::filesystem::path& path, const Progress& progress = {});
+
 /// `kitchen.toml` of `kitchen.glb`: adds or overrides lights, groups, emission, cameras, sky. Unknown keys
 /// are errors with file:line. The [options] table is the command line's business and ignored here.
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress = {});

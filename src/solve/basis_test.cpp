@@ -7,6 +7,7 @@
 #include "gather/lit_scene.h"
 #include "scene/shapes.h"
 #include "solve/solver.h"
+#include "solve/test_scenes.h"
 
 namespace sconce {
 namespace {
@@ -111,18 +112,6 @@ TEST_P(Sh1, EvenSky) {
   const float truth = solve(lit, Vec3(0, 0.01f, 0), tilted, 8192)[0].e.illuminance.r;
   EXPECT_NEAR(truth, e * (1 + tilted.y) / 2, 0.005f * e);
   EXPECT_NEAR(predicted, truth, 0.01f * e);
-}
-
-Scene coloured_box() {
-  Scene scene;
-  add_box(scene, "room", add_material(scene, "white", Rgb(0.7f)), Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
-  add_quad(scene, "red", add_material(scene, "red", Rgb(0.7f, 0.05f, 0.05f)), Vec3(-0.999f, 0, -1),
-           Vec3(0, 2, 0), Vec3(0, 0, 2));
-  add_quad(scene, "lamp left", add_material(scene, "glow", Rgb(0), Rgb(30, 25, 20)),
-           Vec3(-0.8f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  add_quad(scene, "lamp right", add_material(scene, "glow 2", Rgb(0), Rgb(3, 8, 12)),
-           Vec3(0.4f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  return scene;
 }
 
 // g . n is half the light that comes in through the plane of n, as E would count it: E / 2.

@@ -6,6 +6,7 @@
 #include "gather/lit_scene.h"
 #include "scene/shapes.h"
 #include "solve/solver.h"
+#include "solve/test_scenes.h"
 
 namespace sconce {
 namespace {
@@ -145,18 +146,6 @@ TEST_P(EverySolver, ConstantSkyOverOpenGround) {
   const Rgb e = rig.at(*GetParam(), Vec3(0), Vec3(0, 1, 0), 8192)[0].illuminance;
   EXPECT_NEAR(e.r, 1000 * static_cast<double>(kPi), 10);
   EXPECT_NEAR(e.b, 3000 * static_cast<double>(kPi), 30);
-}
-
-Scene coloured_box() {
-  Scene scene;
-  add_box(scene, "room", add_material(scene, "white", Rgb(0.7f)), Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
-  add_quad(scene, "red", add_material(scene, "red", Rgb(0.7f, 0.05f, 0.05f)), Vec3(-0.999f, 0, -1),
-           Vec3(0, 2, 0), Vec3(0, 0, 2));
-  const auto lamp = add_material(scene, "glow", Rgb(0), Rgb(30, 25, 20));
-  add_quad(scene, "lamp left", lamp, Vec3(-0.8f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  add_quad(scene, "lamp right", add_material(scene, "glow 2", Rgb(0), Rgb(3, 8, 12)),
-           Vec3(0.4f, 1.99f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f));
-  return scene;
 }
 
 TEST_P(EverySolver, GroupsSumToTheWholeAtTheSameSeed) {
