@@ -155,6 +155,7 @@ bool Driver::perform(const Action& action) {
            true;
   }
   if (word == "seek") return v.seek(), frames_ = 1, true;
+  if (word == "scene") return v.save_scene(arguments[0]), true;
   if (word == "package") return v.save_package(arguments[0]), true;
   throw Error(where, "the window does not know '" + word + "'");
 }

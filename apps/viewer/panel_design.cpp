@@ -101,6 +101,11 @@ void Viewer::design_panel() {
   }
   if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
   if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
+  if (state_.sheet) return;
+  ImGui::Dummy({0, px(6)});
+  ImGui::Separator();
+  if (ImGui::Button("Write to scene", {-1, 0})) attempt([&] { save_scene({}); });
+  tip("NAME-relit.glb beside the package: lamps and emitters as strong as mixed");
 }
 
 }  // namespace sconce::viewer

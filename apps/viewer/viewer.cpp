@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "package/manifest.h"
+#include "session/to_scene.h"
 #include "viewer/driver.h"
 #include "viewer/theme.h"
 
@@ -289,6 +290,13 @@ void Viewer::save_package(fs::path target) {
   fs::copy(state_.package, beside.path(), fs::copy_options::recursive);
   beside.commit();
   note("package written: " + target.string());
+}
+
+void Viewer::save_scene(fs::path target) {
+  if (target.empty()) target = state_.file.parent_path() / (state_.file.stem().string() + "-relit.glb");
+  const SceneFiles written = write_scene(target, state_.opened->package, state_.session->mix());
+  for (const std::string& warning : written.warnings) note(warning);
+  note("scene written: " + target.string());
 }
 
 Metering Viewer::metering_now() const {

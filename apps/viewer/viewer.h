@@ -116,6 +116,8 @@ class Viewer {
   void save_preset();
   /// Keeps what was baked. @param target  empty = beside the scene
   void save_package(std::filesystem::path target);
+  /// Writes the scene as it is mixed. @param target  empty = beside the package
+  void save_scene(std::filesystem::path target);
   Metering metering_now() const;
   void note(const std::string& line);
   /// Runs what a button does; what it throws becomes a note.
