@@ -46,8 +46,12 @@ TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
   const auto outcome =
       view("set window=0.3 mirror=4000K,+1ev shower=off\nev100 8\ncamera tub\nsettle\npicture " +
            path("window.png") + "\nlook lux\nscale 0 500\nlines on\nsettle\npicture " + path("lux.png") +
-           "\nscreenshot " + path("all.png") + "\n");
+           "\nscreenshot " + path("all.png") + "\nscene " + path("relit.glb") + "\n");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto exported = test::run_sconce({"export", path("x.sconce"), "window=0.3", "mirror=4000K,+1ev",
+                                          "shower=off", "--scene", path("again.glb"), "--quiet"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  EXPECT_EQ(read_file(path("relit.glb")), read_file(path("again.glb")));
   const Image8 shown = png("window.png");
   const auto rendered = test::run_sconce(
       {"render", path("x.sconce"), "window=0.3", "mirror=4000K,+1ev", "shower=off", "--ev100", "8",
