@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "image/io.h"
+#include "image/metrics.h"
 #include "package/test_package.h"
 #include "process.h"
 
@@ -35,6 +37,49 @@ TEST(Export, RefusesWhatItDoesNotKnow) {
   expect_refused(test::run_sconce({"export", "x.sconce", "--web", "d", "--tiers", "best"}), 2, "unfiltered");
   expect_refused(test::run_sconce({"export", "x.sconce", "--web", "d", "--encoding", "mp3"}), 2, "exp8");
   expect_refused(test::run_sconce({"serve", "x.sconce", "--port", "70000"}), 2, "65535");
+}
+
+// Re-baked, a scene with the mix written into its lamps is the mix.
+TEST(Export, SceneIsTheMix) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& name) { return (folder / name).string(); };
+  const auto run = [](const std::vector<std::string>& args) {
+    const auto outcome = test::run_sconce(args);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  };
+  const auto bake = [&](const std::string& scene, const std::string& package, const char* seed) {
+    run({"bake", scene, "-o", package, "--atlas", "256", "--samples", "32", "--seed", seed, "--quiet"});
+  };
+  const std::string bathroom = (fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb").string();
+  const std::vector<std::string> mix{"window=0.3", "mirror=2,2700K", "shower=off"};
+  const auto with_mix = [&](std::vector<std::string> args) {
+    args.insert(args.begin() + 2, mix.begin(), mix.end());
+    return args;
+  };
+  bake(bathroom, path("x.sconce"), "1");
+  bake(bathroom, path("other.sconce"), "2");
+  run(with_mix({"export", path("x.sconce"), "--scene", path("relit.glb"), "--quiet"}));
+  bake(path("relit.glb"), path("relit.sconce"), "1");
+  const auto render = [&](std::vector<std::string> args, const std::string& out) {
+    args.insert(args.end(),
+                {"--camera", "tub", "--device", "cpu", "--size", "320x180", "--tone", "linear", "-o", out});
+    run(args);
+    return read_image(out);
+  };
+  const Image mixed = render(with_mix({"render", path("x.sconce")}), path("mixed.exr")),
+              again = render({"render", path("relit.sconce")}, path("again.exr")),
+              other = render(with_mix({"render", path("other.sconce")}), path("other.exr")),
+              before = render({"render", path("x.sconce")}, path("before.exr"));
+  EXPECT_NEAR(compare(again, mixed).mean_ratio, 1, 0.005);
+  // Noise is what two bakes of one scene differ by.
+  const double noise = relative_rmse(other, mixed, nullptr, nullptr).rmse;
+  EXPECT_LT(relative_rmse(again, mixed, nullptr, nullptr).rmse, 0.5 * noise);
+  EXPECT_GT(relative_rmse(before, mixed, nullptr, nullptr).rmse, 0.2);
+
+  folder.write("own.toml", "# mine\n");
+  expect_refused(test::run_sconce({"export", path("x.sconce"), "--scene", path("own.glb")}), 1, "own.toml");
+  expect_refused(test::run_sconce({"export", path("x.sconce"), "window=off", "--web", path("d")}), 2,
+                 "--scene");
 }
 
 // Folders that hold something else are not replaced.

@@ -100,8 +100,7 @@ TEST_F(RelightByOpenGl, BadInputIsOneLine) {
   write_file(folder / "nan.glsl", "vec3 light(vec3 P, vec3 N) {\n  return vec3(sqrt(P.x));\n}\n");
   const test::Outcome holed = relight("x.exr", {"shader,file=" + file("nan.glsl") + ",position=0,1,0"}, gl);
   EXPECT_EQ(holed.code, 0) << holed.err;
-  EXPECT_NE(holed.err.find("nan.glsl: NaN or infinity, painted over: "), std::string::npos)
-      << holed.err;
+  EXPECT_NE(holed.err.find("nan.glsl: NaN or infinity, painted over: "), std::string::npos) << holed.err;
   for (const float v : read_exr(file("x.exr")).data) ASSERT_TRUE(std::isfinite(v));
 }
 

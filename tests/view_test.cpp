@@ -47,8 +47,12 @@ TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
   const auto outcome =
       view("set window=0.3 mirror=4000K,+1ev shower=off\nev100 8\ncamera tub\nsettle\npicture " +
            path("window.png") + "\nlook lux\nscale 0 500\nlines on\nsettle\npicture " + path("lux.png") +
-           "\nscreenshot " + path("all.png") + "\n");
+           "\nscreenshot " + path("all.png") + "\nscene " + path("relit.glb") + "\n");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto exported = test::run_sconce({"export", path("x.sconce"), "window=0.3", "mirror=4000K,+1ev",
+                                          "shower=off", "--scene", path("again.glb"), "--quiet"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  EXPECT_EQ(read_file(path("relit.glb")), read_file(path("again.glb")));
   const Image8 shown = png("window.png");
   const auto rendered = test::run_sconce(
       {"render", path("x.sconce"), "window=0.3", "mirror=4000K,+1ev", "shower=off", "--ev100", "8",
@@ -134,6 +138,49 @@ TEST_F(ViewTest, GoalsAreReached) {
   EXPECT_EQ(read_preset(path("fit.toml")).assignments.size(), 4u);
   EXPECT_EQ(test::run_sconce({"fit", path("x.sconce")}).code, 2);
   EXPECT_EQ(test::run_sconce({"fit", path("x.sconce"), "--lux", "1,2=3"}).code, 2);
+}
+
+TEST_F(ViewTest, OtherRenderersPicturesHaveTheSameFaders) {
+  Image layers(96, 64, {"R", "G", "B", "A", "key.R", "key.G", "key.B", "fill.R", "fill.G", "fill.B"});
+  for (int y = 0; y < layers.height; ++y)
+    for (int x = 0; x < layers.width; ++x) {
+      const float key = 200 * static_cast<float>(x) / 96, fill = 50 * static_cast<float>(y) / 64;
+      const float values[] = {key + fill + 5, key + fill + 5, key + 2 * fill + 5, 1, key, key, key, fill,
+                              fill,           2 * fill};
+      std::copy(std::begin(values), std::end(values), layers.at(x, y));
+    }
+  write_exr(folder_ / "render.exr", layers, PixelType::full);
+  const auto outcome =
+      view("set key=0.25 fill=2,2700K rest=off\nev100 6\nsettle\npicture " + path("window.png") + "\n",
+           "render.exr");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> mix{"mix", path("render.exr"), "key=0.25", "fill=2,2700K", "rest=off"};
+  const auto mixed = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = mix;
+    all.insert(all.end(), more.begin(), more.end());
+    const auto done = test::run_sconce(all);
+    ASSERT_EQ(done.code, 0) << done.err;
+  };
+  mixed({"--ev100", "6", "-o", path("cpu.png")});
+  EXPECT_LE(mean_difference(png("window.png"), png("cpu.png")), 0.1);
+
+  // The faders that made a picture are found in it again.
+  mixed({"-o", path("mixed.exr")});
+  const auto sought = view("set key=1 fill=1,2700K rest=1\nlike " + path("mixed.exr") +
+                               "\nwait 1.2\nsettle\nsave " + path("found.toml") +
+                               "\nlook cd/m2\nsettle\nmove 400,300\nscreenshot " + path("all.png") + "\n",
+                           "render.exr");
+  ASSERT_EQ(sought.code, 0) << sought.err;
+  EXPECT_EQ(read_preset(path("found.toml")).assignments,
+            (std::vector<std::string>{"fill=2,2700K", "key=0.25", "rest=off"}));
+
+  const auto surface = view("wish 0,0,0 300\n", "render.exr");
+  EXPECT_EQ(surface.code, 1);
+  EXPECT_NE(surface.err.find("needs a package"), std::string::npos) << surface.err;
+  write_exr(folder_ / "plain.exr", Image::rgb(4, 4), PixelType::full);
+  const auto plain = view("settle\npicture " + path("p.png") + "\n", "plain.exr");
+  EXPECT_EQ(plain.code, 1);
+  EXPECT_NE(plain.err.find("light-group"), std::string::npos) << plain.err;
 }
 
 TEST_F(ViewTest, BadInputIsOneLine) {

@@ -6,6 +6,9 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/text.h"
+#include "mix_options.h"
+#include "session/to_scene.h"
 #include "web_site.h"
 
 namespace fs = std::filesystem;
@@ -22,23 +25,60 @@ void check_folder(const fs::path& folder) {
     throw Error(folder.string(), "holds something else", "a new or empty folder, or an earlier export");
 }
 
+int export_scene(const std::string& input, const std::string& target, const MixOptions& settings,
+                 const Options& options) {
+  check_output(target, {".glb"});
+  if (target == "-") throw UsageError("option '--scene'", "standard output takes one file", "NAME.glb");
+  const Progress progress = make_progress(options);
+  const Package package = settings.open(input);
+  const MixSpec mix = settings.make(settings.preset(), package.manifest().groups, progress);
+  const SceneFiles written = write_scene(target, package, mix);
+  for (const std::string& warning : written.warnings) progress.warn(warning);
+  std::vector<std::string> files;
+  for (const fs::path& file : written.files) files.push_back(file.string());
+  if (options.json)
+    fmt::print("{}\n",
+               nlohmann::ordered_json{
+                   {"input", input},
+                   {"output", files},
+                   {"groups", nlohmann::ordered_json::parse(weights_json(package.manifest().groups, mix))}}
+                   .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  else if (!options.quiet)
+    fmt::print("{}: the scene, lit as mixed\n", join(files, ", "));
+  return kDone;
+}
+
 }  // namespace
 
 int run_export(int argc, const char* const* argv) {
-  std::string input, folder;
+  std::string input, folder, scene;
+  MixOptions settings;
   WebOptions web;
   Options options(
       "export",
       "A package as a web page with faders: a folder that any web server can host, without code on "
-      "the server.");
+      "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed.");
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("--web", &folder, "folder to write; an earlier export in its place is replaced");
+  options.option("--scene", &scene, "NAME.glb to write the re-lit scene to, and NAME.toml with its sky");
   web.declare(options);
+  options.positionals("GROUP=SETTING", &settings.settings,
+                      "with --scene: the mix, as `sconce render` takes it");
+  options.option("--others", &settings.others, "with --scene: setting of every group that is not named");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (folder.empty()) throw UsageError({}, "nothing to export to", "--web DIR");
+  if (folder.empty() == scene.empty())
+    throw UsageError({}, folder.empty() ? "nothing to export to" : "a page and a scene are two exports",
+                     "--web DIR or --scene NAME.glb");
+  const ThreadLimit threads(options.threads);
+  if (!scene.empty()) {
+    if (web.presets.size() > 1) throw UsageError("option '--preset'", "a scene has one mix", "one preset");
+    if (!web.presets.empty()) settings.preset_file = web.presets.front();
+    return export_scene(input, scene, settings, options);
+  }
+  if (!settings.settings.empty() || !settings.others.empty())
+    throw UsageError({}, "a page has its own faders", "settings with --scene, or --preset FILE");
   web.check();
 
-  const ThreadLimit threads(options.threads);
   fs::path target = fs::absolute(folder).lexically_normal();
   if (!target.has_filename()) target = target.parent_path();
   check_folder(target);

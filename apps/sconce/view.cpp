@@ -5,18 +5,22 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/text.h"
 #include "live_bake.h"
 #include "picture_options.h"
 
 namespace sconce::app {
 
 int run_view(int argc, const char* const* argv) {
-  std::string input, script, size;
+  std::string input, script, size, groups_from;
   bool forget = false;
   Options options("view",
-                  "A window on a package: its light groups on faders, the picture following; or on a scene, "
-                  "which is baked while you look.");
-  options.positional("FILE", &input, "NAME.sconce, or a scene (glTF, OBJ); none = an empty window", false);
+                  "A window on a package: its light groups on faders, the picture following; on a scene, "
+                  "which is baked while you look; or on another renderer's picture with light groups.");
+  options.positional("FILE", &input,
+                     "NAME.sconce, a scene (glTF, OBJ) or an OpenEXR picture; none = an empty window", false);
+  options.option("--groups-from", &groups_from,
+                 "regular expression of a picture's layers that are groups, as for `sconce mix`");
   options.option("--script", &script,
                  "does what this file says, line by line, then closes; see docs/window.md");
   options.option("--size", &size, "WIDTHxHEIGHT of the window (default: as the last time)");
@@ -25,6 +29,7 @@ int run_view(int argc, const char* const* argv) {
 
   viewer::ViewRequest request;
   request.file = input;
+  request.groups_from = groups_from;
   request.forget = forget || !script.empty();
   if (!script.empty()) request.script = parse_script(read_file(script), script);
   if (!size.empty()) {
@@ -33,6 +38,8 @@ int run_view(int argc, const char* const* argv) {
     request.height = wanted.height > 0 ? wanted.height : wanted.width * 9 / 16;
   }
   if (!input.empty() && !std::filesystem::exists(input)) throw Error(input, "no such file");
+  if (!groups_from.empty() && lower(std::filesystem::path(input).extension().string()) != ".exr")
+    throw UsageError("option '--groups-from'", input + " is no picture", "an OpenEXR picture");
   request.bake = live_bake;
   const ThreadLimit threads(options.threads);
   viewer::show_window(request);

@@ -75,7 +75,9 @@ void Viewer::top_bar(ImVec2 at, ImVec2 size) {
   }
   ImGui::SameLine(0, px(20));
   ImGui::SetNextItemWidth(px(150));
-  if (ImGui::BeginCombo("##camera", state_.camera.name.c_str())) {
+  if (state_.sheet) {
+    if (ImGui::Button("Whole picture")) state_.place = {};
+  } else if (ImGui::BeginCombo("##camera", state_.camera.name.c_str())) {
     for (const Camera& camera : state_.opened->rays.scene().cameras)
       if (ImGui::Selectable(camera.name.c_str(), false)) state_.camera = camera;
     ImGui::EndCombo();
@@ -85,7 +87,9 @@ void Viewer::top_bar(ImVec2 at, ImVec2 size) {
   if (ImGui::BeginCombo("##look", std::string(row_of(state_.look).label).c_str(),
                         ImGuiComboFlags_HeightLarge)) {
     for (const LookRow& row : look_rows())
-      if (ImGui::Selectable(std::string(row.label).c_str(), row.kind == state_.look)) set_look(row.kind);
+      if ((row.of_pictures || !state_.sheet) &&
+          ImGui::Selectable(std::string(row.label).c_str(), row.kind == state_.look))
+        set_look(row.kind);
     ImGui::EndCombo();
   }
   ImGui::SameLine(size.x - px(84));
@@ -105,6 +109,10 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     line = "measuring";
   else if (preparing_.running())
     line = "preparing lamps to be moved";
+  else if (state_.sheet)
+    line =
+        fmt::format("{} groups  {} x {}  {}", state_.session->groups().size(), state_.sheet->opened().width(),
+                    state_.sheet->opened().height(), state_.sheet->opened().picture.renderer);
   else if (state_.ready())
     line = fmt::format("{} groups  {} x {}  {} page{}", state_.session->groups().size(),
                        state_.opened->package.manifest().width, state_.opened->package.manifest().height,
@@ -113,7 +121,7 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
   ImGui::TextDisabled("%s", line.c_str());
   const gpu::Capabilities& can = window_.context().capabilities();
   const std::string device = state_.ready() ? fmt::format("{}   mix {:.1f} ms", can.renderer.substr(0, 40),
-                                                          state_.canvas->fader_milliseconds())
+                                                          state_.screen().fader_milliseconds())
                                             : can.renderer.substr(0, 40);
   ImGui::SameLine(size.x - ImGui::CalcTextSize(device.c_str()).x - px(14));
   ImGui::TextDisabled("%s", device.c_str());
@@ -168,14 +176,14 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
   ImGui::BeginGroup();
   ImGui::PushFont(fonts().large);
   ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str()
-                                 : "Drop a package or a scene here");
+                                 : "Drop a package, a scene or a picture here");
   ImGui::PopFont();
   if (waiting) {
     const std::string stage = baking_.running() ? baking_.stage() : "opening";
     ImGui::ProgressBar(baking_.running() ? static_cast<float>(baking_.done()) : 0.5f, {width, px(6)}, "");
     ImGui::TextDisabled("%s", stage.c_str());
   } else {
-    ImGui::TextDisabled("NAME.sconce, glTF or OBJ; a scene is baked while you look.");
+    ImGui::TextDisabled("NAME.sconce; glTF or OBJ, baked while you look; OpenEXR with light groups.");
     ImGui::Dummy({0, px(12)});
     if (fs::exists(SCONCE_DEMO) && request_.bake && ImGui::Button("Our bathroom", {px(150), px(34)}))
       attempt([&] { open(SCONCE_DEMO); });

@@ -2,7 +2,6 @@
 #include "viewer/canvas.h"
 
 #include <chrono>
-#include <cstdint>
 
 #include "gpu/tiers.h"
 
@@ -34,18 +33,14 @@ gpu::Look gpu_look(LookKind look) {
   }
 }
 
-ImTextureID id_of(const gpu::Texture& texture) {
-  return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture.handle()));
-}
-
 }  // namespace
 
 Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened)
-    : context_(&context),
+    : Screen(context),
+      context_(&context),
       opened_(std::move(opened)),
       view_(context, opened_->rays.shown()),
       mixer_(opened_->layers),
-      display_(context),
       reference_display_(context) {
   const ShaderTier& tier = gpu::tier_of(context.capabilities());
   // Mixing by a processor that plays graphics device is slower than by the one that is a processor.
@@ -131,13 +126,6 @@ void Canvas::set_reference(const Image& linear, const Session& session) {
   reference_sum_->upload(GL_RGB, GL_FLOAT, linear.data.data());
   reference_display_.tone(*reference_sum_, 1, session.exposure(metering_),
                           find_tone_mapper(session.mood().tone));
-}
-
-ImTextureID Canvas::texture() const {
-  return id_of(display_.texture());
-}
-ImTextureID Canvas::reference() const {
-  return id_of(reference_display_.texture());
 }
 
 }  // namespace sconce::viewer

@@ -6,13 +6,13 @@
 
 #include <memory>
 
-#include "gpu/display_pass.h"
 #include "gpu/light_source.h"
 #include "gpu/mix.h"
 #include "gpu/view.h"
 #include "mix/mixer.h"
 #include "session/lamp_mover.h"
 #include "session/look.h"
+#include "viewer/screen.h"
 
 namespace sconce::viewer {
 
@@ -24,7 +24,7 @@ struct Scenery {
   FalseColor scale;
 };
 
-class Canvas {
+class Canvas : public Screen {
  public:
   Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened);
 
@@ -35,12 +35,8 @@ class Canvas {
   bool has_reference() const { return reference_sum_ != nullptr; }
   void forget_reference() { reference_sum_.reset(); }
 
-  ImTextureID texture() const;
-  ImTextureID reference() const;
-  Image8 read() const { return display_.read(); }
-  const Metering& metering() const { return metering_; }
-  const MixSpec& mix() const { return mix_; }
-  double fader_milliseconds() const { return fader_ms_; }  ///< processor's work of the last fader move
+  ImTextureID reference() const { return id_of(reference_display_.texture()); }
+  Image linear() const override { return view_.linear(); }
   static constexpr int kSamples = 16;
 
  private:
@@ -56,17 +52,14 @@ class Canvas {
   std::unique_ptr<gpu::MixedPages> pages_;  ///< where the processor does
   std::unique_ptr<gpu::MixedPages> noise_;
   MixSpec noise_mix_;
-  gpu::DisplayPass display_, reference_display_;
+  gpu::DisplayPass reference_display_;
   std::unique_ptr<gpu::Texture> reference_sum_;
 
-  MixSpec mix_;
-  bool mixed_ = false, metered_ = false, on_device_ = false;
+  bool on_device_ = false;
   uint64_t relit_ = 0;  ///< LampMover::version()
-  Metering metering_;
   Scenery drawn_;
   Mood shown_;
   int samples_ = 0;
-  double fader_ms_ = 0;
 };
 
 }  // namespace sconce::viewer

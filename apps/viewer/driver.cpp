@@ -150,7 +150,7 @@ bool Driver::perform(const Action& action) {
     const auto from = numbers(action, 0, 2), to = numbers(action, 1, 2);
     return drag(from[0], from[1], to[0], to[1]), true;
   }
-  if (!s.ready()) throw Error(where, word + " needs an open package");
+  if (!s.ready()) throw Error(where, word + " needs an open package or picture");
   if (word == "pull") {
     const auto place = s.fader_places.find(s.session->groups()[s.session->group(arguments[0])].name);
     if (place == s.fader_places.end()) throw Error(where, "that fader is not shown");
@@ -160,17 +160,8 @@ bool Driver::perform(const Action& action) {
                                                                            (kHighestStop - kLowestStop));
     return drag(x, y, x + numbers(action, 1, 1)[0], y), true;
   }
-  if (word == "picture") return write_png(arguments[0], s.canvas->read()), true;
+  if (word == "picture") return write_png(arguments[0], s.screen().read()), true;
   if (word == "hold") return s.session->meter_once(v.metering_now()), frames_ = 1, true;
-  if (word == "camera")
-    return s.camera = *find_camera(s.opened->rays.scene(), arguments[0]), frames_ = 1, true;
-  if (word == "eye") {
-    const auto eye = numbers(action, 0, 3), target = numbers(action, 1, 3);
-    const float yfov = s.camera.yfov;
-    s.camera = look_at({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
-    s.camera.yfov = yfov;
-    return frames_ = 1, true;
-  }
   if (word == "look") return v.set_look(find_look(arguments[0]).kind), frames_ = 1, true;
   if (word == "scale") {
     FalseColor scale = s.scale();
@@ -180,6 +171,17 @@ bool Driver::perform(const Action& action) {
     return s.scale() = scale, frames_ = 1, true;
   }
   if (word == "lines") return s.scale().lines = arguments[0] == "on", frames_ = 1, true;
+  if (word == "like") return v.seek_picture(arguments[0]), frames_ = 1, true;
+  if (s.sheet) throw Error(where, word + " needs a package: a picture has one view and no surfaces");
+  if (word == "camera")
+    return s.camera = *find_camera(s.opened->rays.scene(), arguments[0]), frames_ = 1, true;
+  if (word == "eye") {
+    const auto eye = numbers(action, 0, 3), target = numbers(action, 1, 3);
+    const float yfov = s.camera.yfov;
+    s.camera = look_at({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
+    s.camera.yfov = yfov;
+    return frames_ = 1, true;
+  }
   if (word == "plane") {
     s.plane.height = numbers(action, 0, 1)[0];
     if (arguments.size() > 1) s.plane.spacing = numbers(action, 1, 1)[0];
@@ -196,8 +198,8 @@ bool Driver::perform(const Action& action) {
   }
   if (word == "lamp" || word == "grab" || word == "tug" || word == "home" || word == "moves")
     return lamp(action);
-  if (word == "like") return v.seek_picture(arguments[0]), frames_ = 1, true;
   if (word == "seek") return v.seek(), frames_ = 1, true;
+  if (word == "scene") return v.save_scene(arguments[0]), true;
   if (word == "package") return v.save_package(arguments[0]), true;
   throw Error(where, "the window does not know '" + word + "'");
 }

@@ -24,9 +24,13 @@ void Viewer::keys() {
   if (pressed("i")) state_.reading = !state_.reading;
   if (pressed("x")) session.meter_once(metering_now());
   if (pressed("p") || pressed("f12")) attempt([&] { screenshot(); });
-  if (pressed("f")) state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
   for (std::size_t i = 0; i < look_rows().size(); ++i)
     if (pressed(std::to_string(i + 1).c_str())) set_look(look_rows()[i].kind);
+  if (state_.sheet) {
+    if (pressed("f")) state_.place = {};
+    return;
+  }
+  if (pressed("f")) state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
   const std::vector<Camera>& cameras = state_.opened->rays.scene().cameras;
   if (pressed("c") && !cameras.empty()) {
     std::size_t next = 0;

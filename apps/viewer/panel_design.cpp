@@ -23,7 +23,7 @@ void figure(const char* label, const std::string& value, bool first) {
 
 }  // namespace
 
-void Viewer::design_panel() {
+void Viewer::plane_section() {
   Plane& plane = state_.plane;
   const MixSpec mix = state_.session->mix();
   ImGui::PushFont(fonts().strong);
@@ -59,15 +59,22 @@ void Viewer::design_panel() {
                             .c_str());
     ImGui::PopFont();
   }
-
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();
+}
+
+void Viewer::design_panel() {
+  if (!state_.sheet) plane_section();
+  const MixSpec mix = state_.session->mix();
+  const float width = ImGui::GetContentRegionAvail().x;
   ImGui::PushFont(fonts().strong);
   ImGui::TextUnformatted("Goals");
   ImGui::PopFont();
   ImGui::PushFont(fonts().small);
   ImGui::PushTextWrapPos();
-  ImGui::TextDisabled("Ctrl-click a surface to wish for lux there; drop a picture to wish for its mood.");
+  ImGui::TextDisabled("%s", state_.sheet ? "Drop a picture of the same view to wish for its mood."
+                                         : "Ctrl-click a surface to wish for lux there; drop a picture to "
+                                           "wish for its mood.");
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
   for (std::size_t i = 0; i < state_.goals.size(); ++i) {
@@ -94,6 +101,11 @@ void Viewer::design_panel() {
   }
   if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
   if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
+  if (state_.sheet) return;
+  ImGui::Dummy({0, px(6)});
+  ImGui::Separator();
+  if (ImGui::Button("Write to scene", {-1, 0})) attempt([&] { save_scene({}); });
+  tip("NAME-relit.glb beside the package: lamps and emitters as strong as mixed");
 }
 
 }  // namespace sconce::viewer

@@ -62,11 +62,12 @@ void Viewer::look_panel() {
 
   heading("View");
   for (const LookRow& row : look_rows()) {
+    if (state_.sheet && !row.of_pictures) continue;
     if (toggle(std::string(row.name).c_str(), std::string(row.label).c_str(), state_.look == row.kind,
                palette::kAccent, (width - 2 * ImGui::GetStyle().ItemSpacing.x) / 3))
       set_look(row.kind);
     tip(std::string(row.doc).c_str());
-    if (static_cast<int>(row.kind) % 3 != 2) ImGui::SameLine();
+    if (state_.sheet ? row.kind == LookKind::picture : static_cast<int>(row.kind) % 3 != 2) ImGui::SameLine();
   }
   if (!row_of(state_.look).unit.empty()) {
     FalseColor scale = state_.scale();
@@ -88,6 +89,7 @@ void Viewer::look_panel() {
     if (ImGui::SmallButton("trace this view")) refine_reference();
   }
 
+  if (state_.sheet) return;
   heading("Cameras");
   for (const Camera& camera : state_.opened->rays.scene().cameras)
     if (ImGui::Selectable((camera.name + "##camera").c_str(),

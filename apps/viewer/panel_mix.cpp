@@ -124,9 +124,11 @@ void Viewer::fader_row(std::size_t g) {
   if (ImGui::IsItemHovered()) {
     std::string lamps;
     for (const std::string& lamp : group.lamps) lamps += "\n  " + lamp;
-    ImGui::SetTooltip("%s", fmt::format("{:.0f} lm as baked, mean {:.1f} lux, noise {:.1f} %{}", group.lumens,
-                                        group.mean_lux, 100 * group.noise, lamps)
-                                .c_str());
+    const std::string line = state_.sheet
+                                 ? fmt::format("mean {:.3g} as rendered", state_.sheet->opened().means[g])
+                                 : fmt::format("{:.0f} lm as baked, mean {:.1f} lux, noise {:.1f} %{}",
+                                               group.lumens, group.mean_lux, 100 * group.noise, lamps);
+    ImGui::SetTooltip("%s", line.c_str());
   }
   const float small = px(26), gap = px(4);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - 3 * small - 2 * gap);

@@ -18,22 +18,9 @@ PictureParams params_of(ImVec2 size) {
           .samples = 1};
 }
 
-/// A card over the picture.
-void card(ImDrawList& draw, ImVec2 at, ImVec2 size) {
-  draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(18, 19, 21, 225), px(8));
-}
-
-void text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const std::string& line) {
-  draw.AddText(font, font->FontSize, at, color, line.c_str());
-}
-
-float width_of(ImFont* font, const std::string& line) {
-  return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, line.c_str()).x;
-}
-
 }  // namespace
 
-void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
+void Viewer::begin_picture(ImVec2 at, ImVec2 size) {
   state_.canvas_at = at, state_.canvas_size = size;
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
@@ -46,6 +33,10 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   ImGui::InvisibleButton("canvas", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
+}
+
+void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
+  begin_picture(at, size);
   navigate();
   const PictureParams p = params_of(size);
   attempt([&] {
@@ -166,65 +157,75 @@ void Viewer::overlays() {
          fmt::format("{}  {:.0f} lux", i + 1, state_.goals[i].target));
   }
 
-  if (!row_of(state_.look).unit.empty()) {
-    const FalseColor& scale = state_.scale();
-    const float bar = px(14), tall = std::min(px(300), size.y - px(80)), x = at.x + px(26), y = at.y + px(54);
-    card(draw, {x - px(14), y - px(40)}, {px(112), tall + px(58)});
-    text(draw, fonts().strong, {x, y - px(30)}, palette::kText, std::string(row_of(state_.look).unit));
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-      const Rgb c = false_color((static_cast<float>(i) + 0.5f) / kSteps);
-      const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
-      const float y0 = y + tall * (1 - static_cast<float>(i + 1) / kSteps),
-                  y1 = y + tall * (1 - static_cast<float>(i) / kSteps);
-      draw.AddRectFilled({x, y0}, {x + bar, y1 + 0.5f}, IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
-    }
-    for (const float tick : legend_ticks(scale)) {
-      const float ty = y + tall * (1 - scale.place(tick));
-      draw.AddLine({x + bar, ty}, {x + bar + px(5), ty}, palette::kText);
-      text(draw, fonts().small, {x + bar + px(10), ty - px(8)}, palette::kText, tick_text(tick));
-    }
-  }
+  legend(draw);
 
   if (state_.reading && state_.under && !state_.under->group_lux.empty()) {
     const Reading& r = *state_.under;
-    std::vector<std::size_t> order;
-    float total = 0;
-    for (std::size_t g = 0; g < r.group_lux.size(); ++g) {
-      total += r.group_lux[g];
-      if (r.group_lux[g] > 0) order.push_back(g);
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return r.group_lux[a] > r.group_lux[b]; });
-    order.resize(std::min<std::size_t>(order.size(), 6));
-    const ImVec2 box(px(236), px(84) + px(19) * static_cast<float>(order.size()));
-    const ImVec2 corner(at.x + px(12), at.y + size.y - box.y - px(12));
-    card(draw, corner, box);
-    const float x = corner.x + px(14);
-    float y = corner.y + px(8);
-    const std::string lux = fmt::format("{:.{}f}", luminance(r.illuminance), total < 10 ? 1 : 0);
+    const auto [x, y] = reading_card(draw, r.group_lux);
+    const float total = luminance(r.illuminance);
+    const std::string lux = fmt::format("{:.{}f}", total, total < 10 ? 1 : 0);
     text(draw, fonts().large, {x, y}, palette::kText, lux);
     text(draw, fonts().small, {x + width_of(fonts().large, lux) + px(6), y + px(16)}, palette::kDim, "lux");
     text(draw, fonts().small, {x + px(112), y + px(6)}, palette::kText,
          fmt::format("{:.3g} cd/m\u00b2", r.luminance));
     text(draw, fonts().small, {x + px(112), y + px(22)}, palette::kDim,
          fmt::format("albedo {:.2f}", luminance(r.albedo)));
-    y += px(42);
-    text(draw, fonts().small, {x, y}, palette::kDim,
+    text(draw, fonts().small, {x, y + px(42)}, palette::kDim,
          r.material.empty() ? r.object : r.object + " \u00b7 " + r.material);
-    y += px(22);
-    for (const std::size_t g : order) {
-      const float share = r.group_lux[g] / std::max(total, 1e-9f);
-      draw.AddRectFilled({x, y + px(13)}, {x + px(208) * share, y + px(15)},
-                         chip(state_.session->groups()[g].color * mix.weights[g]), px(1));
-      text(draw, fonts().small, {x, y - px(2)}, palette::kText, state_.session->groups()[g].name);
-      const std::string percent = fmt::format("{:.0f} %", 100 * share);
-      text(draw, fonts().small, {x + px(208) - width_of(fonts().small, percent), y - px(2)}, palette::kDim,
-           percent);
-      y += px(19);
-    }
   }
   draw.PopClipRect();
+}
+
+void Viewer::legend(ImDrawList& draw) {
+  if (row_of(state_.look).unit.empty()) return;
+  const ImVec2 at = state_.canvas_at, size = state_.canvas_size;
+  const FalseColor& scale = state_.scale();
+  const float bar = px(14), tall = std::min(px(300), size.y - px(80)), x = at.x + px(26), y = at.y + px(54);
+  card(draw, {x - px(14), y - px(40)}, {px(112), tall + px(58)});
+  text(draw, fonts().strong, {x, y - px(30)}, palette::kText,
+       state_.sheet ? "luminance" : std::string(row_of(state_.look).unit));
+  constexpr int kSteps = 64;
+  for (int i = 0; i < kSteps; ++i) {
+    const Rgb c = false_color((static_cast<float>(i) + 0.5f) / kSteps);
+    const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
+    const float y0 = y + tall * (1 - static_cast<float>(i + 1) / kSteps),
+                y1 = y + tall * (1 - static_cast<float>(i) / kSteps);
+    draw.AddRectFilled({x, y0}, {x + bar, y1 + 0.5f}, IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
+  }
+  for (const float tick : legend_ticks(scale)) {
+    const float ty = y + tall * (1 - scale.place(tick));
+    draw.AddLine({x + bar, ty}, {x + bar + px(5), ty}, palette::kText);
+    text(draw, fonts().small, {x + bar + px(10), ty - px(8)}, palette::kText, tick_text(tick));
+  }
+}
+
+ImVec2 Viewer::reading_card(ImDrawList& draw, const std::vector<float>& light) {
+  const MixSpec mix = state_.session->mix();
+  std::vector<std::size_t> order;
+  float total = 0;
+  for (std::size_t g = 0; g < light.size(); ++g) {
+    total += light[g];
+    if (light[g] > 0) order.push_back(g);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return light[a] > light[b]; });
+  order.resize(std::min<std::size_t>(order.size(), 6));
+  const ImVec2 box(px(236), px(84) + px(19) * static_cast<float>(order.size()));
+  const ImVec2 corner(state_.canvas_at.x + px(12),
+                      state_.canvas_at.y + state_.canvas_size.y - box.y - px(12));
+  card(draw, corner, box);
+  const ImVec2 at(corner.x + px(14), corner.y + px(8));
+  float y = at.y + px(64);
+  for (const std::size_t g : order) {
+    const float share = light[g] / std::max(total, 1e-9f);
+    draw.AddRectFilled({at.x, y + px(13)}, {at.x + px(208) * std::min(share, 1.0f), y + px(15)},
+                       chip(state_.session->groups()[g].color * mix.weights[g]), px(1));
+    text(draw, fonts().small, {at.x, y - px(2)}, palette::kText, state_.session->groups()[g].name);
+    const std::string percent = fmt::format("{:.0f} %", 100 * share);
+    text(draw, fonts().small, {at.x + px(208) - width_of(fonts().small, percent), y - px(2)}, palette::kDim,
+         percent);
+    y += px(19);
+  }
+  return at;
 }
 
 }  // namespace sconce::viewer

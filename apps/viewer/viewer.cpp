@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "package/manifest.h"
+#include "session/to_scene.h"
 #include "viewer/driver.h"
 #include "viewer/theme.h"
 
@@ -77,7 +78,7 @@ void Viewer::frame(double wait) {
   const float side = state_.ready() && state_.panels ? std::min(px(remembered_.panel), 0.6f * all.x) : 0;
   const ImVec2 canvas_at(0, top), canvas_size(all.x - side, all.y - top - bottom);
   if (state_.ready()) {
-    draw_canvas(canvas_at, canvas_size);
+    state_.sheet ? draw_sheet(canvas_at, canvas_size) : draw_canvas(canvas_at, canvas_size);
     if (side > 0) side_panel({all.x - side, top}, {side, all.y - top - bottom});
   } else {
     welcome(canvas_at, canvas_size);
@@ -106,6 +107,10 @@ void Viewer::open(const fs::path& file) {
   if (fs::is_directory(whole)) {
     opening_.start(
         [whole](const Progress&, const auto& publish) { publish(std::make_shared<const Opened>(whole)); });
+  } else if (ends_with_any(whole, {".exr"})) {
+    opening_.start([whole, groups_from = request_.groups_from](const Progress&, const auto& publish) {
+      publish(std::make_shared<const OpenedPicture>(whole, groups_from));
+    });
   } else {
     if (!request_.bake) throw Error(file.string(), "is no package");
     baking_.start([this, whole](const Progress& progress, const auto& publish) {
@@ -123,7 +128,8 @@ void Viewer::take_results() {
     opening_.start(
         [path](const Progress&, const auto& publish) { publish(std::make_shared<const Opened>(path)); });
   }
-  if (auto opened = opening_.take()) attempt([&] { show(*opened); });
+  if (auto opened = opening_.take())
+    attempt([&] { std::visit([&](auto& what) { show(std::move(what)); }, *opened); });
   if (auto light = measuring_.take()) state_.plane.light = std::move(*light);
   if (auto light = tracing_.take()) traced_ = std::move(*light);
   if (state_.ready()) attempt([&] { light_lamps(); });
@@ -140,10 +146,11 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
   // A finer bake of the same scene: faders, camera and goals stay.
   const auto alike = [](const GroupInfo& a, const GroupInfo& b) { return a.name == b.name; };
-  const bool again = state_.session && state_.ready() && !own_folder_.empty() &&
+  const bool again = state_.session && state_.opened && !own_folder_.empty() &&
                      std::equal(groups.begin(), groups.end(), state_.session->groups().begin(),
                                 state_.session->groups().end(), alike);
   state_.canvas = std::move(canvas);
+  state_.sheet.reset();
   state_.opened = std::move(opened);
   state_.package = state_.opened->package.path();
   prepare_lamps();
@@ -151,8 +158,25 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
     if (state_.plane.shown) measure();
     return;
   }
-  state_.session = std::make_unique<Session>(groups);
   state_.camera = state_.opened->rays.camera("");
+  start_session(groups);
+}
+
+void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
+  measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop();
+  state_.lamps = {};
+  reference_.reset(), traced_.reset();
+  for (const std::string& name : opened->picture.picture.left_out)
+    note("'" + name + "' is left out: only flat, full channels are kept");
+  auto sheet = std::make_unique<Sheet>(window_.context(), std::move(opened));
+  state_.canvas.reset(), state_.opened.reset(), state_.under.reset(), state_.package.clear();
+  state_.sheet = std::move(sheet);
+  state_.place = {};
+  start_session(state_.sheet->opened().picture.groups);
+}
+
+void Viewer::start_session(const std::vector<GroupInfo>& groups) {
+  state_.session = std::make_unique<Session>(groups);
   state_.scales.clear(), state_.goals.clear(), state_.sought.clear();
   state_.look = LookKind::picture;
   state_.plane.shown = false;
@@ -167,6 +191,8 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
 }
 
 void Viewer::set_look(LookKind look) {
+  if (state_.sheet && !row_of(look).of_pictures)
+    return note("a picture has no " + std::string(row_of(look).name));
   state_.look = look;
   if (look == LookKind::reference) refine_reference();
 }
@@ -230,11 +256,14 @@ void Viewer::seek_picture(const fs::path& file) {
     const std::string bytes = read_file(file);
     target = from_display(
         decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file.string()),
-        0.18f / session.exposure(state_.canvas->metering()).scale);
+        0.18f / session.exposure(state_.screen().metering()).scale);
   }
   const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
   Wishes wishes(unit.size());
-  wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
+  if (state_.sheet)
+    wish_picture(wishes, state_.sheet->opened(), unit, target);
+  else
+    wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
   const Fit found = fit(wishes);
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);
@@ -245,7 +274,7 @@ void Viewer::seek_picture(const fs::path& file) {
 
 void Viewer::screenshot() {
   const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
-  write_png(name, state_.canvas->read());
+  write_png(name, state_.screen().read());
   note("picture written: " + fs::absolute(name).string());
 }
 
@@ -267,8 +296,16 @@ void Viewer::save_package(fs::path target) {
   note("package written: " + target.string());
 }
 
+void Viewer::save_scene(fs::path target) {
+  if (target.empty()) target = state_.file.parent_path() / (state_.file.stem().string() + "-relit.glb");
+  const SceneFiles written = write_scene(target, state_.opened->package, state_.session->mix());
+  for (const std::string& warning : written.warnings) note(warning);
+  note("scene written: " + target.string());
+}
+
 Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
+  if (state_.sheet) return meter_picture(Mixer(state_.sheet->opened().layers).mix(mix).front());
   const LampMover* mover = state_.lamps.mover.get();
   if (mover == nullptr || !mover->any())
     return state_.opened->meter(mix, Mixer(state_.opened->layers).mix(mix));

@@ -18,12 +18,14 @@
 #include "session/reference.h"
 #include "session/remembered.h"
 #include "viewer/canvas.h"
+#include "viewer/sheet.h"
 #include "viewer/window.h"
 
 namespace sconce::viewer {
 
 struct ViewRequest {
-  std::filesystem::path file;  ///< package; empty = none yet
+  std::filesystem::path file;  ///< package, scene or picture; empty = none yet
+  std::string groups_from;     ///< of pictures, see find_layers()
   std::vector<Action> script;  ///< then the window closes, unless it is empty
   int width = 0, height = 0;   ///< of the window; 0 = as it was the last time
   bool forget = false;         ///< neither reads nor writes what is remembered
@@ -59,11 +61,21 @@ struct MovingLamps {
   Vec2 from{0};            ///< and the pointer
 };
 
+/// How a picture lies in the window.
+struct SheetPlace {
+  float zoom = 1;     ///< 1 = as large as there is room
+  Vec2 middle{0.5f};  ///< of the window, as a share of the picture
+};
+
+using AnyOpened = std::variant<std::shared_ptr<const Opened>, std::shared_ptr<const OpenedPicture>>;
+
 struct State {
   std::filesystem::path file;     ///< as it was asked for; empty = none
   std::filesystem::path package;  ///< that is shown; another one where a scene is baked
   std::shared_ptr<const Opened> opened;
-  std::unique_ptr<Canvas> canvas;
+  std::unique_ptr<Canvas> canvas;  ///< of a package; else there may be a sheet
+  std::unique_ptr<Sheet> sheet;    ///< of another renderer's picture
+  SheetPlace place;
   std::unique_ptr<Session> session;
   Camera camera;
   LookKind look = LookKind::picture;
@@ -81,7 +93,8 @@ struct State {
   std::optional<Vec3> pivot;                   ///< while a drag turns around it
   double fade_seconds = 1;
 
-  bool ready() const { return canvas != nullptr; }
+  bool ready() const { return canvas != nullptr || sheet != nullptr; }
+  Screen& screen() const { return sheet ? static_cast<Screen&>(*sheet) : *canvas; }
   FalseColor& scale() { return scales[look]; }
 };
 
@@ -96,9 +109,14 @@ class Viewer {
   void open(const std::filesystem::path& file);
   void drop(const std::filesystem::path& file);
   void show(std::shared_ptr<const Opened> opened);
+  void show(std::shared_ptr<const OpenedPicture> opened);
+  /// Faders, exposure and scales as they are when something else is opened.
+  void start_session(const std::vector<GroupInfo>& groups);
   void take_results();
   void frame(double wait);
   void draw_canvas(ImVec2 at, ImVec2 size);
+  void draw_sheet(ImVec2 at, ImVec2 size);
+  void begin_picture(ImVec2 at, ImVec2 size);
   void navigate();
   void keys();
   void set_look(LookKind look);
@@ -122,6 +140,8 @@ class Viewer {
   void save_preset();
   /// Keeps what was baked. @param target  empty = beside the scene
   void save_package(std::filesystem::path target);
+  /// Writes the scene as it is mixed. @param target  empty = beside the package
+  void save_scene(std::filesystem::path target);
   Metering metering_now() const;
   void note(const std::string& line);
   /// Runs what a button does; what it throws becomes a note.
@@ -137,7 +157,11 @@ class Viewer {
   void color_popup(std::size_t group);
   void look_panel();
   void design_panel();
+  void plane_section();
   void overlays();
+  void legend(ImDrawList& draw);
+  /// A card with each group's share. @param light  of each group; @return where its headline begins
+  ImVec2 reading_card(ImDrawList& draw, const std::vector<float>& light);
   void help_card();
   void welcome(ImVec2 at, ImVec2 size);
 
@@ -146,7 +170,7 @@ class Viewer {
   Window window_;
   State state_;
   std::vector<Action> script_;
-  Background<std::shared_ptr<const Opened>> opening_;
+  Background<AnyOpened> opening_;
   Background<std::filesystem::path> baking_;
   Background<MeasuredLight> measuring_, tracing_;
   Background<std::shared_ptr<const Movable>> preparing_;

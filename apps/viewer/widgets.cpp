@@ -119,4 +119,16 @@ void tip(const char* text) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+void card(ImDrawList& draw, ImVec2 at, ImVec2 size) {
+  draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(18, 19, 21, 225), px(8));
+}
+
+void text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const std::string& line) {
+  draw.AddText(font, font->FontSize, at, color, line.c_str());
+}
+
+float width_of(ImFont* font, const std::string& line) {
+  return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, line.c_str()).x;
+}
+
 }  // namespace sconce::viewer

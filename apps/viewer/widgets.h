@@ -2,6 +2,8 @@
 // The few controls that Dear ImGui does not have.
 #pragma once
 
+#include <string>
+
 #include "viewer/theme.h"
 
 namespace sconce::viewer {
@@ -22,6 +24,10 @@ bool light_switch(const char* id, bool on, ImU32 color);
 bool color_chip(const char* id, ImU32 color, float width);
 /// Black bodies from kKelvinMin to kKelvinMax, as the logarithmic slider above it.
 void kelvin_ramp(ImVec2 size);
+/// A card over the picture, and text on it.
+void card(ImDrawList& draw, ImVec2 at, ImVec2 size);
+void text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const std::string& line);
+float width_of(ImFont* font, const std::string& line);
 /// Of the last control, when the pointer rests on it.
 void tip(const char* text);
 

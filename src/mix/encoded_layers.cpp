@@ -24,6 +24,16 @@ std::size_t EncodedLayers::bytes() const {
   return sum;
 }
 
+std::vector<Image> EncodedLayers::layer(std::size_t group) const {
+  std::vector<Image> pages;
+  for (std::size_t t = 0; t < textures.size(); ++t)
+    for (std::size_t i = 0; i < textures[t].groups.size(); ++i)
+      if (textures[t].groups[i] == group && textures[t].coefficient == 0)
+        for (const EncodedImage& page : images[t])
+          pages.push_back(textures[t].decode(page, i, colors[group]));
+  return pages;
+}
+
 EncodedLayers read_layers(const Package& package, std::size_t coefficients) {
   EncodedLayers layers;
   for (std::size_t c = 0; c < coefficients; ++c)

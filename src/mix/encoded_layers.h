@@ -19,6 +19,8 @@ struct EncodedLayers {
   int pages() const { return static_cast<int>(images.front().size()); }
   /// Of the basis, that there are textures of.
   std::size_t coefficients() const { return textures.back().coefficient + 1; }
+  /// A group's layer, decoded: RGB, per page. @pre there is such a group
+  std::vector<Image> layer(std::size_t group) const;
   /// Codes of all pages.
   std::size_t bytes() const;
 };

@@ -14,32 +14,6 @@ namespace {
 
 constexpr int kFitSamples = 16;  // rays per pixel
 
-/// Means of blocks, `factor` pixels each way; what does not fill a block is left out.
-Image shrunk(const Image& image, int factor) {
-  Image out = Image::rgb(image.width / factor, image.height / factor);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) {
-      Rgb sum;
-      for (int j = 0; j < factor; ++j)
-        for (int i = 0; i < factor; ++i) sum += image.rgb_at(x * factor + i, y * factor + j);
-      out.set_rgb(x, y, sum / static_cast<float>(factor * factor));
-    }
-  return out;
-}
-
-/// The layer of a group alone, decoded.
-std::vector<Image> decoded(const EncodedLayers& layers, std::size_t group) {
-  for (std::size_t t = 0; t < layers.textures.size(); ++t)
-    for (std::size_t i = 0; i < layers.textures[t].groups.size(); ++i)
-      if (layers.textures[t].groups[i] == group) {
-        std::vector<Image> pages;
-        for (const EncodedImage& page : layers.images[t])
-          pages.push_back(layers.textures[t].decode(page, i, layers.colors[group]));
-        return pages;
-      }
-  throw Error({}, "a group has no layer");
-}
-
 /// Whether a lamp or the sky is seen in a pixel or beside it: edges of what is brightest say most about where
 /// the rays of another picture went.
 std::vector<uint8_t> beside_lamps(const std::vector<CameraHits>& hits) {
@@ -62,7 +36,7 @@ std::vector<Image> group_pictures(const std::vector<CameraHits>& hits, const Enc
   std::vector<Image> pictures;
   const float share = 1 / static_cast<float>(params.samples);
   for (std::size_t g = 0; g < layers.colors.size(); ++g) {
-    const std::vector<Image> pages = decoded(layers, g);
+    const std::vector<Image> pages = layers.layer(g);
     Image& picture = pictures.emplace_back(Image::rgb(params.width, params.height));
     parallel_for(static_cast<std::size_t>(params.height), 4, [&](std::size_t row) {
       const int y = static_cast<int>(row);
@@ -92,11 +66,23 @@ void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> uni
   wishes.add(row, target, 1 / std::max(target * target, 1.0));
 }
 
-void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
-                  std::span<const Rgb> unit, const Image& target, const Progress& progress) {
-  if (target.stride() < 3) throw Error({}, "the picture to look like has no R, G and B");
-  const int factor = std::max(1, (target.width + kFitWidth - 1) / kFitWidth);
-  const Image wanted = shrunk(target, std::min(factor, std::max(1, target.height)));
+Image fit_sized(const Image& image) {
+  if (image.stride() < 3) throw Error({}, "the picture to look like has no R, G and B");
+  const int factor =
+      std::min(std::max(1, (image.width + kFitWidth - 1) / kFitWidth), std::max(1, image.height));
+  Image out = Image::rgb(image.width / factor, image.height / factor);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      Rgb sum;
+      for (int j = 0; j < factor; ++j)
+        for (int i = 0; i < factor; ++i) sum += image.rgb_at(x * factor + i, y * factor + j);
+      out.set_rgb(x, y, sum / static_cast<float>(factor * factor));
+    }
+  return out;
+}
+
+void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const Rgb> unit, const Image& wanted,
+                 std::span<const uint8_t> left_out) {
   double mean = 0;
   for (int y = 0; y < wanted.height; ++y)
     for (int x = 0; x < wanted.width; ++x) {
@@ -105,23 +91,27 @@ void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers,
     }
   mean = std::exp(mean);
   if (!(mean > 1.1e-4)) throw Error({}, "the picture to look like is black");
-  const PictureParams params{.width = wanted.width, .height = wanted.height, .samples = kFitSamples};
-  std::vector<CameraHits> hits;
-  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
-  const std::vector<Image> parts = group_pictures(hits, layers, params);
-  const std::vector<uint8_t> left_out = beside_lamps(hits);
   std::vector<double> row(unit.size());
   for (int y = 0; y < wanted.height; ++y)
     for (int x = 0; x < wanted.width; ++x) {
-      if (left_out[static_cast<std::size_t>(y * wanted.width + x)] != 0) continue;
+      if (!left_out.empty() && left_out[static_cast<std::size_t>(y * wanted.width + x)] != 0) continue;
       const Rgb goal = wanted.rgb_at(x, y);
-      const double scale = static_cast<double>(luminance(wanted.rgb_at(x, y))) + mean;
+      const double scale = static_cast<double>(luminance(goal)) + mean;
       for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
         for (std::size_t g = 0; g < unit.size(); ++g)
           row[g] = static_cast<double>((unit[g] * parts[g].rgb_at(x, y)).*channel);
         wishes.add(row, static_cast<double>(goal.*channel), 1 / (scale * scale));
       }
     }
+}
+
+void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
+                  std::span<const Rgb> unit, const Image& target, const Progress& progress) {
+  const Image wanted = fit_sized(target);
+  const PictureParams params{.width = wanted.width, .height = wanted.height, .samples = kFitSamples};
+  std::vector<CameraHits> hits;
+  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
+  wish_pixels(wishes, group_pictures(hits, layers, params), unit, wanted, beside_lamps(hits));
 }
 
 Image from_display(const Image8& picture, float grey) {

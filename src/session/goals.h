@@ -18,13 +18,21 @@ std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& f
 /// @param unit  unit_weights()
 void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target);
 
-/// A picture wished for, in cd/m2; every pixel counts relative to its own luminance and the picture's mean.
-/// Pictures wider than kFitWidth are box-filtered to that. Pixels at visible lamps and the sky are left out.
+/// A picture wished for; every pixel counts relative to its own luminance and the picture's mean.
+/// @param parts     pictures of every group alone at unit weight, as large as `wanted`
+/// @param left_out  per pixel: 1 = does not count; may be empty
+/// @throws Error where it is black
+void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const Rgb> unit, const Image& wanted,
+                 std::span<const uint8_t> left_out = {});
+/// Box-filtered, where it is wider than kFitWidth. @throws Error where it has no R, G and B
+Image fit_sized(const Image& image);
+inline constexpr int kFitWidth = 160;
+
+/// A picture of the package, in cd/m2, fit_sized(). Pixels at visible lamps and the sky are left out.
 /// @param camera  that the picture was taken with
-/// @throws Error where the picture has no R, G and B, or is black
+/// @throws as fit_sized(), wish_pixels()
 void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
                   std::span<const Rgb> unit, const Image& target, const Progress& progress = {});
-inline constexpr int kFitWidth = 160;
 
 /// A display's codes back to linear light, as if there were no tone curve: middle grey is `grey` cd/m2.
 Image from_display(const Image8& picture, float grey);

@@ -11,9 +11,9 @@ namespace sconce {
 namespace {
 
 constexpr LookRow kRows[] = {
-    {LookKind::picture, "picture", "Picture", "as a camera sees it", ""},
+    {LookKind::picture, "picture", "Picture", "as a camera sees it", "", true},
     {LookKind::lux, "lux", "Illuminance", "light that arrives at surfaces", "lux"},
-    {LookKind::luminance, "cd/m2", "Luminance", "light that leaves towards the eye", "cd/m\u00b2"},
+    {LookKind::luminance, "cd/m2", "Luminance", "light that leaves towards the eye", "cd/m\u00b2", true},
     {LookKind::lightmap, "lightmap", "Lightmap", "the light alone, on white surfaces", ""},
     {LookKind::noise, "noise", "Noise", "standard error of the mix, groups taken as independent", "%"},
     {LookKind::albedo, "albedo", "Albedo", "what surfaces reflect", ""},

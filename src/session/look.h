@@ -24,7 +24,8 @@ enum class LookKind : uint8_t {
 struct LookRow {
   LookKind kind;
   std::string_view name, label, doc;
-  std::string_view unit;  ///< of the legend; "" = no false colours
+  std::string_view unit;     ///< of the legend; "" = no false colours
+  bool of_pictures = false;  ///< another renderer's picture can be looked at so
 };
 /// In the order of LookKind.
 std::span<const LookRow> look_rows();

@@ -52,6 +52,7 @@ constexpr ActionRow kRows[] = {
     {"screenshot", "FILE.png", "the whole window", 1, 1},
     {"picture", "FILE.png", "the picture alone, without panels", 1, 1},
     {"package", "NAME.sconce", "saves what was baked", 1, 1},
+    {"scene", "NAME.glb", "writes the scene as it is mixed, as `sconce export --scene`", 1, 1},
     {"quit", "", "ends", 0, 0},
 };
 
