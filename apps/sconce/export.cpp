@@ -30,7 +30,10 @@ int run_export(int argc, const char* const* argv) {
   Options options(
       "export",
       "A package as a web page with faders: a folder that any web server can host, without code on "
-      "the server.");
+      "the server.",
+      {"sconce export kitchen.sconce --web site",
+       "sconce export kitchen.sconce --web site --preset evening.toml",
+       "python3 -m http.server -d {FOLDER}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("--web", &folder, "folder to write; an earlier export in its place is replaced");
   web.declare(options);
@@ -67,6 +70,7 @@ int run_export(int argc, const char* const* argv) {
     fmt::print("{}: a page for any web server; layers: {}; the rest {:.1f} MB\n", folder, layers,
                static_cast<double>(report.geometry + report.textures + report.meter) / 1e6);
   }
+  options.next({folder});
   return kDone;
 }
 

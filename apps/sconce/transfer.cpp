@@ -43,9 +43,12 @@ int run_transfer(int argc, const char* const* argv) {
   PictureOptions picture;
   TransferParams params;
   int gather = static_cast<int>(params.gather), seed = 1;
-  Options options("transfer",
-                  "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
-                  "lightmap or on a camera's pixels. 'sconce relight' uses it.");
+  Options options(
+      "transfer",
+      "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
+      "lightmap or on a camera's pixels. 'sconce relight' uses it.",
+      {"sconce transfer kitchen.sconce", "sconce transfer kitchen.sconce --camera stove --size 640x360",
+       "sconce relight {PACKAGE} --light point,position=1,1.8,1,lumens=400"});
   options.positional("PACKAGE", &input, "NAME.sconce; the operator goes into NAME.sconce/operators");
   options.flag("--lightmap", &lightmap, "for the lightmap, so that the camera stays free (default)");
   options.option("--camera", &picture.camera, "for the pixels of this camera instead");
@@ -112,6 +115,7 @@ int run_transfer(int argc, const char* const* argv) {
     fmt::print("{}: {} receivers, {} samples, {:.1f} MB, {:.1f} s\n", path.string(), op.gather.rows,
                op.slots(), static_cast<double>(bytes) / 1e6, seconds);
   }
+  options.next({input});
   return kDone;
 }
 

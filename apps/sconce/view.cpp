@@ -15,7 +15,9 @@ int run_view(int argc, const char* const* argv) {
   bool forget = false;
   Options options("view",
                   "A window on a package: its light groups on faders, the picture following; or on a scene, "
-                  "which is baked while you look.");
+                  "which is baked while you look.",
+                  {"sconce view kitchen.sconce", "sconce view kitchen.glb",
+                   "sconce render {PACKAGE} --preset NAME.toml"});
   options.positional("FILE", &input, "NAME.sconce, or a scene (glTF, OBJ); none = an empty window", false);
   options.option("--script", &script,
                  "does what this file says, line by line, then closes; see docs/window.md");
