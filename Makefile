@@ -11,7 +11,7 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build web test bench validate format tidy setup
+.PHONY: help demo build web test bench validate docs format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -47,6 +47,9 @@ bench: setup ## run the benchmarks: bench/results/
 validate: setup $(BUILD)/build.ninja ## compute docs/validation.md
 	ninja -C $(BUILD) validation
 	$(BUILD)/tests/validation $(or $(SCONCE_TEST_DATA),../shared/data) docs/validation.md
+
+docs: build ## write docs/cli.md, out of every verb's --help
+	$(BUILD)/sconce help --markdown > docs/cli.md.new && mv docs/cli.md.new docs/cli.md
 
 format: ## clang-format over all sources
 	@tools/setup.sh dev

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
 
 #include "process.h"
 
@@ -104,11 +107,73 @@ TEST(Cli, HelpAndVersion) {
       EXPECT_NE(one.out.find(common), std::string::npos) << verb << " " << common;
     }
   }
-  EXPECT_EQ(run_sconce({"--version"}).out, "sconce " SCONCE_VERSION "\n");
+  const std::string version = run_sconce({"--version"}).out;
+  EXPECT_TRUE(version.starts_with("sconce " SCONCE_VERSION "\n")) << version;
+  for (const char* part : {"radiosity", "bc6h", "agx", ".glb", "x86-64", "Embree"})
+    EXPECT_NE(version.find(part), std::string::npos) << part << "\n" << version;
+}
+
+TEST(Cli, AloneSaysWhatItIsAndHowToBegin) {
+  const Outcome alone = run_sconce({});
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_EQ(alone.out, "");
+  const std::size_t gap = alone.err.find("\n\n");
+  ASSERT_NE(gap, std::string::npos);
+  EXPECT_EQ(std::count(alone.err.begin(), alone.err.begin() + static_cast<std::ptrdiff_t>(gap) + 1, '\n'), 5);
+  EXPECT_EQ(std::count(alone.err.begin() + static_cast<std::ptrdiff_t>(gap) + 2, alone.err.end(), '\n'), 3);
+}
+
+TEST(Cli, ReferenceIsWhatHelpSays) {
+  EXPECT_EQ(read_file(fs::path(SCONCE_SOURCE_DIR) / "docs/cli.md"), run_sconce({"help", "--markdown"}).out)
+      << "`make docs` writes it";
+}
+
+/// Every verb ends its help with two examples and a next step, of verbs and options that there are.
+TEST(Cli, ExamplesAreOfOptionsThatThereAre) {
+  std::map<std::string, std::string> helps;  // by "sconce VERB", "sconce luminaire ACTION"
+  std::istringstream reference(read_file(fs::path(SCONCE_SOURCE_DIR) / "docs/cli.md"));
+  std::string line, verb;
+  while (std::getline(reference, line)) {
+    if (line.starts_with("## ") || line.starts_with("### "))
+      verb = "sconce " + line.substr(line.find(' ') + 1);
+    else if (!verb.empty())
+      helps[verb] += line + "\n";
+  }
+  const std::regex example("(?:  |next: )(sconce .*)"), option(" (--?[a-z][a-z0-9-]*)");
+  for (const auto& [name, help] : helps) {
+    if (name == "sconce luminaire") continue;
+    int examples = 0;
+    std::istringstream lines(help);
+    while (std::getline(lines, line)) {
+      std::smatch match;
+      if (!std::regex_match(line, match, example)) continue;
+      ++examples;
+      const std::string command = match[1];
+      std::string known;
+      for (const auto& [other, text] : helps)
+        if (command.starts_with(other + " ")) known = text;  // the longest name comes last
+      ASSERT_FALSE(known.empty()) << command;
+      for (std::sregex_iterator i(command.begin(), command.end(), option), end; i != end; ++i)
+        EXPECT_TRUE(std::regex_search(known, std::regex("  (-., )?" + (*i)[1].str() + "[ ,\n]"))) << command;
+    }
+    EXPECT_GE(examples, 2) << name;
+    EXPECT_NE(help.find("\nnext: "), std::string::npos) << name;
+  }
+}
+
+TEST(Cli, ColourOnlyOnTerminalsThatWantIt) {
+  const auto on_terminal = [](const std::string& variable) {
+    const std::string command = variable + " " + test::shell_quoted(SCONCE_PROGRAM) + " rendr";
+    return test::run_program("script", {"-qec", command, "/dev/null"}).out;
+  };
+  EXPECT_NE(on_terminal("TERM=xterm").find("\033[1;31m"), std::string::npos);
+  const std::string plain = on_terminal("TERM=xterm NO_COLOR=1");
+  EXPECT_NE(plain.find("unknown verb"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find('\033'), std::string::npos) << plain;
+  EXPECT_EQ(run_sconce({"rendr"}).err.find('\033'), std::string::npos);
 }
 
 TEST(Cli, UsageErrorsExitWithTwo) {
-  expect_error(run_sconce({}), 2, "", {"missing verb", "info, init, bake"});
   expect_error(run_sconce({"rendr"}), 2, "", {"unknown verb 'rendr'", "did you mean 'render'?"});
   expect_error(run_sconce({"--quite"}), 2, "", {"unknown option '--quite'"});
   for (const std::string& verb : kVerbs) {
@@ -160,6 +225,12 @@ TEST(Cli, SceneInfo) {
   EXPECT_EQ(json.code, 0) << json.err;
   EXPECT_EQ(json.out.front(), '{');
   EXPECT_NE(json.out.find("\"triangles\": 6"), std::string::npos) << json.out;
+  folder.write("room.toml", "\n[options]\natlas = 64\n");
+  const Outcome options = run_sconce({"info", scene, "--options"});
+  EXPECT_EQ(options.code, 0) << options.err;
+  EXPECT_TRUE(std::regex_search(options.out, std::regex("atlas +64 +room.toml:3\n"))) << options.out;
+  EXPECT_TRUE(std::regex_search(options.out, std::regex("solver +radiosity +default\n"))) << options.out;
+  EXPECT_TRUE(options.out.ends_with("next: sconce bake " + scene + " --quality draft\n")) << options.out;
   expect_error(run_sconce({"info", scene, "--groups", "some"}), 2, "info", {"'some'", "per-light"});
 }
 

@@ -86,15 +86,15 @@ TEST(Options, CommandLineBeatsConfigBeatsSideFileBeatsDefault) {
       folder.write("a.toml", "name = 'x'\n[options]\natlas = 128\nforce = true\nnoise = 0.5\n");
   Sample s;
   ASSERT_EQ(s.parse({"a.glb", "--noise", "3%", "--config", config.c_str()}), std::nullopt);
-  s.options.apply_file(side, "side file");
+  s.options.apply_file(side, "a.toml");
   EXPECT_DOUBLE_EQ(s.noise, 0.03);
   EXPECT_EQ(s.atlas, 256);
   EXPECT_TRUE(s.force);
   const auto from = s.options.provenance();
   EXPECT_EQ(from.at("noise").source, "command line");
-  EXPECT_EQ(from.at("atlas").source, config);
+  EXPECT_EQ(from.at("atlas").source, config + ":3");
   EXPECT_EQ(from.at("atlas").value, "256");
-  EXPECT_EQ(from.at("force").source, "side file");
+  EXPECT_EQ(from.at("force").source, "a.toml:4");
   EXPECT_EQ(from.at("output").source, "default");
   EXPECT_EQ(from.at("output").value, "default.out");
 }

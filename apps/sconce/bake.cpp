@@ -140,6 +140,7 @@ int execute(const Request& request, const Options& options, RankSession& session
   if (bake.up_to_date()) {
     if (!options.quiet) fmt::print("{} is up to date (--force bakes again)\n", request.output.string());
     make_movable(request, options, session, progress);
+    options.next({request.output.string()});
     return kDone;
   }
   std::vector<BakeState> states;
@@ -173,17 +174,22 @@ int execute(const Request& request, const Options& options, RankSession& session
     if (!options.quiet || options.json) print_result(bake, manifest, request.output, seconds(), options.json);
   });
   make_movable(request, options, session, progress);
+  options.next({request.output.string()});
   return kDone;
 }
 
-/// @return exit code when nothing is left to do
-std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
+void apply_side_options(Options& options, fs::path scene) {
+  scene.replace_extension(".toml");
+  options.apply_file(scene.string(), scene.filename().string());
+}
+
+void declare(Options& options, Request& request) {
   auto& [scene, output, shard, quality, basis, samples, bounces, seed, page, density, noise, photons,
          direct_estimate, denoise, time, max_error] = request.given;
   BakeJob& job = request.job;
-  options.positional(
-      "SCENE", &scene,
-      "glTF, OBJ, FBX, COLLADA, 3DS, PLY, STL or Blender file; SCENE.toml beside it adds lights, groups, options");
+  options.positional("SCENE", &scene,
+                     "glTF, OBJ, FBX, COLLADA, 3DS, PLY, STL or Blender file; SCENE.toml beside it adds "
+                     "lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");
   options.option("--solver", &job.solver,
@@ -218,9 +224,17 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   options.flag("--resume", &request.resume, "continue an interrupted bake");
   options.flag("--force", &request.force, "solve all groups anew, whatever of the package still holds");
   options.flag("--dry-run", &request.dry_run, "report atlas, groups and which would be solved; bake nothing");
+}
+
+/// @return exit code when nothing is left to do
+std::optional<int> read_request(int argc, const char* const* argv, Options& options, Request& request) {
+  declare(options, request);
   if (const auto code = options.parse(argc, argv)) return *code;
+  auto& [scene, output, shard, quality, basis, samples, bounces, seed, page, density, noise, photons,
+         direct_estimate, denoise, time, max_error] = request.given;
+  BakeJob& job = request.job;
   job.scene = fs::absolute(scene);
-  options.apply_file(fs::path(job.scene).replace_extension(".toml").string(), "side file");
+  apply_side_options(options, job.scene);
 
   if (page < 0 || (page > 0 && page < 32) || page > 16384)
     throw UsageError("--atlas", fmt::format("{} is out of range", page), "32 to 16384");
@@ -287,10 +301,23 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
 
 }  // namespace
 
+std::map<std::string, Options::Value> bake_options(const fs::path& scene) {
+  Options options("bake", "");
+  Request request;
+  declare(options, request);
+  const std::string path = scene.string();
+  const char* const arguments[] = {path.c_str()};
+  options.parse(1, arguments);
+  apply_side_options(options, scene);
+  return options.provenance();
+}
+
 int run_bake(int argc, const char* const* argv) {
   RankSession session;
   return session.guard([&] {
-    Options options("bake", "Computes one lightmap per light group of a scene and writes them as a package.");
+    Options options("bake", "Computes one lightmap per light group of a scene and writes them as a package.",
+                    {"sconce bake kitchen.glb --quality draft", "sconce bake kitchen.glb --dry-run",
+                     "sconce view {PACKAGE}"});
     Request request;
     std::optional<int> code;
     session.together([&] {

@@ -47,10 +47,10 @@ ConfigFile read_config(const std::filesystem::path& path) {
   const toml::table* table = options->as_table();
   if (table == nullptr) throw UsageError(where(options->source()), "options must be a table", "[options]");
   config.has_table = true;
-  std::vector<std::pair<uint32_t, ConfigEntry>> sorted;  // toml++ keeps keys by name; users read them by line
   for (const auto& [key, node] : *table) {
     ConfigEntry entry;
     entry.key = std::string(key.str());
+    entry.line = key.source().begin.line;
     entry.where = where(key.source());
     entry.is_boolean = node.is_boolean();
     const auto add = [&](const toml::node& value) {
@@ -66,11 +66,10 @@ ConfigFile read_config(const std::filesystem::path& path) {
     } else {
       add(node);
     }
-    sorted.emplace_back(key.source().begin.line, std::move(entry));
+    config.entries.push_back(std::move(entry));
   }
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (auto& [line, entry] : sorted) config.entries.push_back(std::move(entry));
+  // toml++ keeps keys by name; users read them by line.
+  std::ranges::stable_sort(config.entries, {}, &ConfigEntry::line);
   return config;
 }
 

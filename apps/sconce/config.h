@@ -12,6 +12,7 @@ struct ConfigEntry {
   std::string key;
   std::vector<std::string> values;  ///< as the command line would give them; a flag's is "true" or "false"
   bool is_boolean = false;
+  uint32_t line = 0;
   std::string where;  ///< "kitchen.toml:12"
 };
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app.h"
+
 namespace sconce::app {
 
 struct Declared {
@@ -24,7 +26,11 @@ struct Declared {
 };
 
 /// What --help prints.
-std::string help_text(const std::string& verb, const std::string& summary,
-                      std::span<const Declared> declared);
+std::string help_text(const std::string& verb, const std::string& summary, std::span<const Declared> declared,
+                      const Guide& guide);
+
+/// `next` of a guide with `files`, quoted for a shell, in the places of its {NAME}s; without files, the
+/// NAMEs.
+std::string next_step(std::string_view next, std::span<const std::string> files = {});
 
 }  // namespace sconce::app

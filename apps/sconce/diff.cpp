@@ -107,8 +107,10 @@ nlohmann::json json_of(const Figures& figures, const Image& a) {
 int run_diff(int argc, const char* const* argv) {
   std::string a, b, metric = "relmse", output, second, mask;
   double limit = std::numeric_limits<double>::infinity();
-  Options options(
-      "diff", "How far picture A is from reference B (.exr, .hdr, .png, .jpg; compared in linear light).");
+  Options options("diff",
+                  "How far picture A is from reference B (.exr, .hdr, .png, .jpg; compared in linear light).",
+                  {"sconce diff new.exr old.exr", "sconce diff new.exr old.exr --metric rmse --fail-above 2%",
+                   "sconce diff {A} {B} -o where.png"});
   options.positional("A", &a, "picture that is judged");
   options.positional("B", &b, "reference");
   options.option(
@@ -153,6 +155,7 @@ int run_diff(int argc, const char* const* argv) {
     fmt::print("{}", text_of(figures, in.a));
     if (differs) fmt::print("  {} {:.6g} is above {:.6g}\n", metric, value, limit);
   }
+  if (output.empty()) options.next({a, b});
   return differs ? kDiffers : kDone;
 }
 

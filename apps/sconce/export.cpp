@@ -57,7 +57,11 @@ int run_export(int argc, const char* const* argv) {
   Options options(
       "export",
       "A package as a web page with faders: a folder that any web server can host, without code on "
-      "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed.");
+      "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed.",
+
+      {"sconce export kitchen.sconce ceiling=0.3 --scene relit.glb",
+       "sconce export kitchen.sconce --web site --preset evening.toml",
+       "python3 -m http.server -d {FOLDER}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("--web", &folder, "folder to write; an earlier export in its place is replaced");
   options.option("--scene", &scene, "NAME.glb to write the re-lit scene to, and NAME.toml with its sky");
@@ -107,6 +111,7 @@ int run_export(int argc, const char* const* argv) {
     fmt::print("{}: a page for any web server; layers: {}; the rest {:.1f} MB\n", folder, layers,
                static_cast<double>(report.geometry + report.textures + report.meter) / 1e6);
   }
+  options.next({folder});
   return kDone;
 }
 

@@ -61,7 +61,10 @@ int run_fit(int argc, const char* const* argv) {
   Options options(
       "fit",
       "Moves the faders to where they come nearest to a picture, or to illuminances at points with "
-      "the least power, and writes them as a preset. Colours stay as they are set.");
+      "the least power, and writes them as a preset. Colours stay as they are set.",
+      {"sconce fit kitchen.sconce --lux 1.2,0.9,0.5=500 -o desk.toml",
+       "sconce fit kitchen.sconce --target photo.png -o like-photo.toml",
+       "sconce render {PACKAGE} --preset {PRESET}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   options.option("--target", &target,
@@ -144,6 +147,7 @@ int run_fit(int argc, const char* const* argv) {
       fmt::print("# residual {:.2f} %, {:.0f} lm\n", 100 * found.residual, lumens);
     }
   }
+  if (!output.empty()) options.next({input, output});
   return kDone;
 }
 

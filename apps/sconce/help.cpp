@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/text.h"
 #include "declared.h"
 
@@ -46,10 +49,36 @@ std::string upper(std::string text) {
   return text;
 }
 
+/// As a shell reads it back.
+std::string shell_word(const std::string& text) {
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c >= 128 ||
+           std::string_view("_-./,:=+@%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 }  // namespace
 
-std::string help_text(const std::string& verb, const std::string& summary,
-                      std::span<const Declared> declared) {
+std::string next_step(std::string_view next, std::span<const std::string> files) {
+  std::string text;
+  std::size_t file = 0;
+  for (std::size_t at = 0; at < next.size();) {
+    const std::size_t open = next.find('{', at), close = next.find('}', at);
+    text += next.substr(at, open - at);
+    if (open == next.npos) break;
+    text += file < files.size() ? shell_word(files[file++])
+                                : std::string(next.substr(open + 1, close - open - 1));
+    at = close + 1;
+  }
+  return text;
+}
+
+std::string help_text(const std::string& verb, const std::string& summary, std::span<const Declared> declared,
+                      const Guide& guide) {
   std::string usage = "usage: sconce " + verb, positionals, options;
   for (const Declared& d : declared) {
     if (d.positional) {
@@ -63,8 +92,10 @@ std::string help_text(const std::string& verb, const std::string& summary,
       add_row(options, left, value.empty() ? d.doc : fmt::format("{} [{}]", d.doc, value));
     }
   }
-  return fmt::format("{} [options]\n\n{}\n\n{}{}options (defaults in brackets):\n{}", usage, summary,
-                     positionals, positionals.empty() ? "" : "\n", options);
+  return fmt::format(
+      "{} [options]\n\n{}\n\n{}{}options (defaults in brackets):\n{}\nexamples:\n  {}\n  {}\n\nnext: {}\n",
+      usage, summary, positionals, positionals.empty() ? "" : "\n", options, guide.first, guide.second,
+      next_step(guide.next));
 }
 
 }  // namespace sconce::app

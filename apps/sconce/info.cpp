@@ -60,7 +60,9 @@ nlohmann::ordered_json json_of(const Vec3& v) {
 int run_info(int argc, const char* const* argv) {
   std::string file, groups = "auto", groups_from;
   bool list_options = false;
-  Options options("info", "What is in a scene, a package, or a picture with light groups.");
+  Options options("info", "What is in a scene, a package, or a picture with light groups.",
+                  {"sconce info kitchen.glb --options", "sconce info kitchen.sconce --json",
+                   "sconce bake {SCENE} --quality draft"});
   options.positional(
       "file", &file,
       "scene (.glb .gltf .obj .fbx .dae .3ds .ply .stl .blend), package (NAME.sconce) or picture (.exr)");
@@ -68,7 +70,7 @@ int run_info(int argc, const char* const* argv) {
   options.option(
       "--groups-from", &groups_from,
       "regular expression of the layers of a picture that are groups; what it captures is the name");
-  options.flag("--options", &list_options, "list where each option of the bake came from");
+  options.flag("--options", &list_options, "list each option of the bake, its value and where it came from");
   if (const auto code = options.parse(argc, argv)) return *code;
 
   const ThreadLimit threads(options.threads);
@@ -81,6 +83,7 @@ int run_info(int argc, const char* const* argv) {
                             : is_package ? package_info(file, list_options)
                                          : scene_info(file, groups, list_options, progress);
   std::fputs((options.json ? report.json.dump(2) + "\n" : report.text).c_str(), stdout);
+  if (!is_package && !is_picture) options.next({file});
   return kDone;
 }
 

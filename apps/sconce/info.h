@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app.h"
 #include "core/progress.h"
 #include "core/rgb.h"
 #include "core/vec.h"
@@ -18,12 +19,15 @@ struct InfoReport {
 };
 
 /// @param groups   how lights become groups, a name of scene/groups.h
-/// @param options  list the side file's [options], too
+/// @param options  list what `bake` would be told, too
 InfoReport scene_info(const std::filesystem::path& path, const std::string& groups, bool options,
                       const Progress& progress);
 /// @param groups_from  see find_groups()
 InfoReport picture_info(const std::filesystem::path& path, const std::string& groups_from);
 InfoReport package_info(const std::filesystem::path& path, bool options);
+
+/// What `bake` would do with a scene's options: each value and where it is from. @throws UsageError
+std::map<std::string, Options::Value> bake_options(const std::filesystem::path& scene);
 
 /// Numbers as short as their float precision.
 nlohmann::ordered_json json_of(const Rgb& c);

@@ -3,7 +3,6 @@
 
 #include <mutex>
 
-#include "config.h"
 #include "import/import.h"
 #include "info.h"
 #include "light/lamp.h"
@@ -55,20 +54,13 @@ void add_cameras(const Scene& scene, InfoReport& report) {
 }
 
 void add_options(const std::filesystem::path& scene_path, InfoReport& report) {
-  std::filesystem::path side_file = scene_path;
-  side_file.replace_extension(".toml");
   Json& options = report.json["options"] = Json::object();
-  std::vector<ConfigEntry> entries;
-  if (std::filesystem::exists(side_file)) entries = read_config(side_file).entries;
   Table table({{"OPTION"}, {"VALUE"}, {"FROM"}});
-  for (const ConfigEntry& entry : entries) {
-    std::string value;
-    for (const std::string& v : entry.values) value += (value.empty() ? "" : " ") + v;
-    table.add({entry.key, value, entry.where});
-    options[entry.key] = {{"value", value}, {"source", entry.where}};
+  for (const auto& [name, option] : bake_options(scene_path)) {
+    table.add({name, option.value, option.source});
+    options[name] = {{"value", option.value}, {"source", option.source}};
   }
-  report.text += entries.empty() ? fmt::format("options       none in {}\n", side_file.filename().string())
-                                 : "options\n" + table.text();
+  report.text += "options of bake\n" + table.text();
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ RoomRequest parse_room(const Request& given) {
   return room;
 }
 
-int init_room(const Request& given, bool quiet) {
+int init_room(const Request& given, const Options& options) {
   const RoomRequest room = parse_room(given);
   const fs::path scene = fs::path(given.output.empty() ? "room.glb" : given.output).replace_extension(".glb");
   const fs::path side = fs::path(scene).replace_extension(".toml");
@@ -77,10 +77,8 @@ int init_room(const Request& given, bool quiet) {
   }
   write_file(scene, write_glb(make_room(room), "sconce"));
   write_file(side, room_side_file(room, scene.filename().string()));
-  if (!quiet)
-    fmt::print("{} and {}\nnext: sconce bake {} --quality draft, then sconce probe {} --plane floor+0.75\n",
-               scene.string(), side.string(), scene.string(),
-               fs::path(scene).replace_extension(".sconce").string());
+  if (!options.quiet) fmt::print("{} and {}\n", scene.string(), side.string());
+  options.next({scene.string()});
   return kDone;
 }
 
@@ -91,7 +89,9 @@ int run_init(int argc, const char* const* argv) {
   Options options(
       "init",
       "Writes a commented side file for a scene: its lamps with lumens and groups, cameras, what looks "
-      "wrong. Or makes an empty room with luminaires, scene and side file.");
+      "wrong. Or makes an empty room with luminaires, scene and side file.",
+      {"sconce init kitchen.glb", "sconce init --room 8x6x2.8 --luminaire lamp.ldt --count 3x4 -o office.glb",
+       "sconce bake {SCENE} --quality draft"});
   options.positional("SCENE", &given.scene, "scene file to write NAME.toml beside", false);
   options.option("--room", &given.size, "WIDTHxDEPTHxHEIGHT in metres: makes a room instead");
   options.option("--reflectance", &given.reflectance, "CEILING/WALLS/FLOOR of the room, percent");
@@ -107,7 +107,7 @@ int run_init(int argc, const char* const* argv) {
   if (given.size.empty() == given.scene.empty())
     throw UsageError({}, given.size.empty() ? "nothing to begin with" : "a scene and a room are asked for",
                      "SCENE, or --room 8x6x2.8");
-  if (!given.size.empty()) return init_room(given, options.quiet);
+  if (!given.size.empty()) return init_room(given, options);
 
   Scene scene = import_scene(given.scene, make_progress(options));
   assign_groups(scene, Grouping::automatic);
@@ -115,7 +115,8 @@ int run_init(int argc, const char* const* argv) {
       given.output.empty() ? fs::path(given.scene).replace_extension(".toml") : fs::path(given.output);
   must_be_new(side, given.force);
   write_file(side, side_file_for(scene, fs::path(given.scene).filename().string()));
-  if (!options.quiet) fmt::print("{}\nnext: sconce bake {}\n", side.string(), given.scene);
+  if (!options.quiet) fmt::print("{}\n", side.string());
+  options.next({given.scene});
   return kDone;
 }
 

@@ -27,6 +27,10 @@ constexpr Verb kActions[] = {
 
 }  // namespace
 
+std::span<const Verb> luminaire_actions() {
+  return kActions;
+}
+
 int run_luminaire(int argc, const char* const* argv) {
   const std::string name = argc > 0 ? argv[0] : "";
   std::vector<std::string> names;
@@ -38,8 +42,7 @@ int run_luminaire(int argc, const char* const* argv) {
     fmt::print(
         "usage: sconce luminaire ACTION FILE [options]\n\nMeasured lamps: IES LM-63, EULUMDAT, ray "
         "files.\n\n");
-    for (const Verb& action : kActions) fmt::print("  {:<10}{}\n", action.name, action.summary);
-    fmt::print("\n'sconce luminaire ACTION --help' lists its options.\n");
+    fmt::print("{}\n'sconce luminaire ACTION --help' lists its options.\n", verbs_text(kActions));
     return kDone;
   }
   throw UsageError(

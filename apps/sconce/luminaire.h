@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app.h"
 #include "photometry/photometry.h"
 #include "photometry/rays.h"
 
@@ -12,6 +13,9 @@ namespace sconce::app {
 /// What info and convert take, for their help.
 inline constexpr const char* kAnyLamp =
     "IES LM-63, EULUMDAT, TM-33, GLDF, light field (.exr), TM-25, LightTools, Zemax, SPEOS or ASAP rays";
+
+/// The verb's own verbs.
+std::span<const Verb> luminaire_actions();
 
 int run_luminaire_info(int argc, const char* const* argv);
 int run_luminaire_check(int argc, const char* const* argv);

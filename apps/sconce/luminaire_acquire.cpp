@@ -46,7 +46,10 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
   bool watch = false;
   Options options("luminaire acquire",
                   "Photographs of a lamp's filtered pattern, one per grid position, to a light field "
-                  "(docs/luminaires.md).");
+                  "(docs/luminaires.md).",
+                  {"sconce luminaire acquire photographs -o torch.exr",
+                   "sconce luminaire acquire photographs -o torch.exr --json",
+                   "sconce luminaire render {FILE} -o wall.png"});
   options.positional("folder", &folder, "folder of photographs with its acquire.toml");
   options.option("-o,--output", &output, "light field to write, .exr");
   options.option("--settings", &settings, "how they were taken; default FOLDER/acquire.toml");
@@ -83,6 +86,7 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
   else if (!options.quiet)
     fmt::print("{}: {} x {} filters of {} x {} pixels, {:.4g} lm\n", output, field.columns, field.rows,
                field.width, field.height, lumens);
+  options.next({output});
   return kDone;
 }
 

@@ -81,7 +81,9 @@ int run_luminaire_check(int argc, const char* const* argv) {
   Options options("luminaire check",
                   "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
                   "glare. Exit code 3 where "
-                  "something is wrong.");
+                  "something is wrong.",
+                  {"sconce luminaire check lamp.ldt", "sconce luminaire check lamps/*.ies --quiet",
+                   "sconce luminaire render {FILE} -o wall.png"});
   options.positionals("file", &files, "IES LM-63 or EULUMDAT files", true);
   options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
   options.option("--diagram", &diagram, "write the polar diagram as SVG; with several files a folder");
@@ -128,6 +130,7 @@ int run_luminaire_check(int argc, const char* const* argv) {
     if (ugr && !table) fmt::print("  no UGR table: the file does not say how large the luminous area is\n");
   }
   if (options.json) fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  if (files.size() == 1) options.next(files);
   return sick ? kDiffers : kDone;
 }
 

@@ -59,7 +59,9 @@ int run_luminaire_convert(int argc, const char* const* argv) {
   double lumens = 0, step = 5;
   Options options(
       "luminaire convert",
-      "A photometric file in another format, the far field of rays or a light field, or rays to TM-25.");
+      "A photometric file in another format, the far field of rays or a light field, or rays to TM-25.",
+      {"sconce luminaire convert lamp.ldt -o lamp.ies",
+       "sconce luminaire convert lamp.tm25ray --lumens 800 -o lamp.ldt", "sconce luminaire check {FILE}"});
   options.positional("file", &file, kAnyLamp);
   options.option("-o,--output", &output,
                  "file to write: .ies (LM-63-2002), .ldt (EULUMDAT); of rays also .tm25ray");
@@ -79,6 +81,7 @@ int run_luminaire_convert(int argc, const char* const* argv) {
                  nlohmann::json{{"file", output}, {"lumens", after}, {"lumens_before", before}}.dump(2));
     else if (!options.quiet)
       fmt::print("{}: {:.1f} lm ({:+.3f} %)\n", output, after, before > 0 ? 100 * (after / before - 1) : 0.0);
+    options.next({output});
     return kDone;
   };
   if (type == ".tm25ray") {

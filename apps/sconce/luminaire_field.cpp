@@ -38,9 +38,12 @@ int run_luminaire_field(int argc, const char* const* argv) {
   FieldParams params;
   double spacing = 5, distance = 0, count = 4e6;
   int seed = 1;
-  Options options("luminaire field",
-                  "Rays of a lamp, or a luminaire modelled as a scene, to its near-field light field "
-                  "(docs/luminaires.md).");
+  Options options(
+      "luminaire field",
+      "Rays of a lamp, or a luminaire modelled as a scene, to its near-field light field "
+      "(docs/luminaires.md).",
+      {"sconce luminaire field lamp.tm25ray -o torch.exr", "sconce luminaire field lamp.glb -o torch.exr",
+       "sconce luminaire render {FILE} -o wall.png"});
   options.positional(
       "file", &file,
       "TM-25, LightTools or Zemax rays; or a scene (.glb, .obj, .fbx, ...) with emissive faces: a "
@@ -89,6 +92,7 @@ int run_luminaire_field(int argc, const char* const* argv) {
         "cos4 varies by {:.1f} % over a filter at 45 degrees\n",
         output, field.columns, field.rows, field.width, field.height, measured.kept, measured.lost,
         params.angle, 100 * spread);
+  options.next({output});
   return kDone;
 }
 

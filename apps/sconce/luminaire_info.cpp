@@ -18,7 +18,9 @@ constexpr double kRayStep = 5;  // degrees
 
 int run_luminaire_info(int argc, const char* const* argv) {
   std::string file;
-  Options options("luminaire info", "What a photometric file (.ies, .ldt) or a ray file says.");
+  Options options("luminaire info", "What a photometric file (.ies, .ldt) or a ray file says.",
+                  {"sconce luminaire info lamp.ldt", "sconce luminaire info lamp.ies --json",
+                   "sconce luminaire check {FILE}"});
   options.positional("file", &file, kAnyLamp);
   if (const auto code = options.parse(argc, argv)) return *code;
   const Progress progress = make_progress(options);
@@ -93,6 +95,7 @@ int run_luminaire_info(int argc, const char* const* argv) {
                            beam_angle(c, 90, 0.1)));
   line("symmetry", name_of(symmetry_of(p)));
   line("opening", describe(p.opening));
+  options.next({file});
   return kDone;
 }
 

@@ -113,7 +113,9 @@ int run_luminaire_render(int argc, const char* const* argv) {
   double distance = 1, width = 0, exact_below = 0.1;
   int size = 256;
   Options options("luminaire render",
-                  "What a lamp alone throws onto a wall across its nadir: lux as .exr, or a .png.");
+                  "What a lamp alone throws onto a wall across its nadir: lux as .exr, or a .png.",
+                  {"sconce luminaire render lamp.ldt -o wall.png",
+                   "sconce luminaire render torch.exr -o wall.exr", "sconce luminaire check {FILE}"});
   options.positional("file", &file,
                      "IES LM-63, EULUMDAT, light field (.exr) or rays (then the rays themselves)");
   options.option("-o,--output", &output, "file to write: .exr (lux) or .png (brightest pixel white)");
@@ -167,6 +169,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
   else if (!options.quiet)
     fmt::print("{}: {:.4g} lux at most, {:.4g} in the mean, {:.5g} lm on {:g} x {:g} m\n", output, most, mean,
                lumens, wall.width, wall.width);
+  options.next({file});
   return kDone;
 }
 

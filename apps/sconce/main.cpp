@@ -11,13 +11,14 @@
 #include "app.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "luminaire.h"
 
 namespace {
 
 using namespace sconce;
 using namespace sconce::app;
 
-constexpr Verb kVerbs[] = {
+const Verb kVerbs[] = {
     {"info", "what is in a scene or a package: counts, groups with lumens, cameras, layers", run_info},
     {"init", "a commented side file for a scene, or a room with luminaires", run_init},
     {"bake", "a scene to a package with one lightmap per light group", run_bake},
@@ -27,7 +28,7 @@ constexpr Verb kVerbs[] = {
     {"export", "a package as a web page with faders, for any web server", run_export},
     {"serve", "that page from this machine, its faders shared between windows and scripts", run_serve},
     {"shader", "the shader that mixes a package's layers, for another renderer", run_shader},
-    {"luminaire", "measured lamps: info, check, convert", run_luminaire},
+    {"luminaire", "measured lamps: info, check, convert", run_luminaire, luminaire_actions()},
     {"transfer", "a package to an operator that carries moved lamps' light through all bounces",
      run_transfer},
     {"relight", "a package, its operator and moved lamps to a picture", run_relight},
@@ -38,20 +39,14 @@ constexpr Verb kVerbs[] = {
 };
 
 std::string usage() {
-  std::string text =
-      "usage: sconce VERB [arguments]\n\nLight-group lightmaps: bake once, re-mix the lights afterwards.\n\n";
-  for (const Verb& verb : kVerbs) text += fmt::format("  {:<10}{}\n", verb.name, verb.summary);
-  return text + "\n'sconce VERB --help' lists a verb's options; 'sconce --version' names the version.\n";
+  return "usage: sconce VERB [arguments]\n\nLight-group lightmaps: bake once, re-mix the lights "
+         "afterwards.\n\n" +
+         verbs_text(kVerbs) +
+         "\n'sconce VERB --help' lists a verb's options; 'sconce --version' what is built in.\n";
 }
 
 int complain(std::string_view verb, const std::string& what, int code) {
-  // One line, whatever a library put into its message.
-  std::string line = what;
-  for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  // fputs: where even stderr is lost, fmt would throw out of the handler.
-  std::fputs(fmt::format("sconce{}{}: {}\n", verb.empty() ? "" : " ", verb, line).c_str(), stderr);
+  print_error(verb, what);
   return code;
 }
 
@@ -81,12 +76,16 @@ int run(const Verb& verb, int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "";
+  if (name == "help" && argc > 2 && std::string_view(argv[2]) == "--markdown") {
+    print_reference(kVerbs);
+    return finish("", kDone);
+  }
   if (name == "--help" || name == "-h" || name == "help") {
     std::fputs(usage().c_str(), stdout);
     return finish("", kDone);
   }
   if (name == "--version") {
-    fmt::print("sconce {}\n", SCONCE_VERSION);
+    std::fputs(version_text().c_str(), stdout);
     return finish("", kDone);
   }
   std::vector<std::string> names;
@@ -94,8 +93,10 @@ int main(int argc, char** argv) {
     if (name == verb.name) return run(verb, argc - 2, argv + 2);
     names.emplace_back(verb.name);
   }
-  if (name.empty())
-    return complain("", "missing verb (allowed: " + join(names, ", ") + "); see 'sconce --help'", kUsage);
+  if (name.empty()) {
+    std::fputs(first_words().c_str(), stderr);
+    return kUsage;
+  }
   return complain("",
                   fmt::format("unknown {} '{}'{} (allowed: {})", name.starts_with('-') ? "option" : "verb",
                               name, did_you_mean(name, names), join(names, ", ")),

@@ -10,7 +10,9 @@ namespace sconce::app {
 int run_merge(int argc, const char* const* argv) {
   Options options(
       "merge",
-      "Joins the shards of one bake (`bake --shard i/n`) into its package, bit for bit the whole bake.");
+      "Joins the shards of one bake (`bake --shard i/n`) into its package, bit for bit the whole bake.",
+      {"sconce merge kitchen.shard-*-of-3 -o kitchen.sconce",
+       "sconce merge a/k.shard-0-of-2 b/k.shard-1-of-2 -o kitchen.sconce", "sconce view {PACKAGE}"});
   std::vector<std::string> shards;
   std::string output;
   options.positionals("SHARD", &shards, "state files that `bake --shard` wrote", true);
@@ -42,6 +44,7 @@ int run_merge(int argc, const char* const* argv) {
   const Manifest manifest = write_result(bake, states, output, provenance, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!options.quiet || options.json) print_result(bake, manifest, output, seconds, options.json);
+  options.next({output});
   return kDone;
 }
 

@@ -128,7 +128,10 @@ int run_mix(int argc, const char* const* argv) {
       "mix",
       "Adds a package's layers with the groups' weights: one lightmap per page, linear in lux, or as codes "
       "for a display. Or those of another renderer's picture with light groups: the same picture under other "
-      "lights.");
+      "lights.",
+      {"sconce mix kitchen.sconce window=off -o lightmap.exr",
+       "sconce mix 'shot.%04d.exr' --frames 1-100 key=2700K -o 'out.%04d.exr'",
+       "sconce shader {PACKAGE} --target glsl330"});
   options.positional(
       "PACKAGE", &job.input,
       "NAME.sconce, or an OpenEXR picture with light groups as Blender Cycles, V-Ray, LuxCore and Arnold "
@@ -184,6 +187,7 @@ int run_mix(int argc, const char* const* argv) {
       });
   }
   report({files, mixed.pages.front().width, mixed.pages.front().height, mixed.groups, mixed.mix});
+  if (job.output != "-") options.next({job.input});
   return kDone;
 }
 

@@ -46,6 +46,7 @@ UsageError unknown_option(const std::string& wrong, std::span<const Declared> de
 
 struct Options::State {
   std::string verb, summary;
+  Guide guide;
   std::vector<Declared> declared;
   bool help = false;
 
@@ -189,13 +190,14 @@ void Options::State::take_file(const std::string& path, const std::string& sourc
     } catch (const UsageError& error) {
       throw UsageError(where, error.what());
     }
-    match->source = source_name;
+    match->source = fmt::format("{}:{}", source_name, entry.line);
   }
 }
 
-Options::Options(std::string verb, std::string summary) : state_(std::make_unique<State>()) {
+Options::Options(std::string verb, std::string summary, Guide guide) : state_(std::make_unique<State>()) {
   state_->verb = std::move(verb);
   state_->summary = std::move(summary);
+  state_->guide = guide;
 }
 
 Options::~Options() = default;
@@ -248,13 +250,13 @@ std::optional<int> Options::parse(int argc, const char* const* argv) {
   try {
     state_->read_command_line(argc, argv);
     if (state_->help) {
-      std::fputs(help_text(state_->verb, state_->summary, state_->declared).c_str(), stdout);
+      std::fputs(help_text(state_->verb, state_->summary, state_->declared, state_->guide).c_str(), stdout);
       return kDone;
     }
     if (!config.empty()) state_->take_file(config, config, true);
     if (threads < 0) throw UsageError("option '--threads'", "expected 0 or more");
   } catch (const UsageError& error) {
-    fmt::print(stderr, "sconce {}: {}\n", state_->verb, error.what());
+    print_error(state_->verb, error.what());
     return kUsage;
   }
   return std::nullopt;
@@ -270,6 +272,11 @@ std::map<std::string, Options::Value> Options::provenance() const {
     if (d.key != "help") values[d.key] = {d.show(), d.source};
   }
   return values;
+}
+
+void Options::next(const std::vector<std::string>& files) const {
+  if (quiet || json) return;
+  std::fputs(("next: " + next_step(state_->guide.next, files) + "\n").c_str(), stdout);
 }
 
 }  // namespace sconce::app

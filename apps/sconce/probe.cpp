@@ -113,7 +113,10 @@ int run_probe(int argc, const char* const* argv) {
   Options options(
       "probe",
       "Lux at points or on a plane, of every light group and of their mix: all bounces, traced to the "
-      "points. Figures are rounded as Monte Carlo noise of --samples paths makes sense of.");
+      "points. Figures are rounded as Monte Carlo noise of --samples paths makes sense of.",
+      {"sconce probe kitchen.sconce --at 1.2,0.9,0.5 ceiling=40%",
+       "sconce probe kitchen.sconce --plane floor+0.75 -o floor.html",
+       "sconce fit {PACKAGE} --lux 1.2,0.9,0.5=500 -o desk.toml"});
   options.positional("PACKAGE", &job.input, "NAME.sconce");
   settings.declare(options);
   options.option("--at", &job.points, "X,Y,Z[,NX,NY,NZ]: a point in metres, facing up unless told otherwise");
@@ -174,7 +177,7 @@ int run_probe(int argc, const char* const* argv) {
   if (job.file == "-" && job.output.empty())
     write_stdout(probe_lines(report));
   else if (job.output != "-")
-    print(report, job, options);
+    print(report, job, options), options.next({job.input});
   return kDone;
 }
 

@@ -76,7 +76,7 @@ class Ticker {
   void warn(const std::string& line) {
     const std::lock_guard lock(mutex_);
     erase_line();
-    fmt::print(stderr, "warning: {}\n", line);
+    print_warning(line);
   }
 
  private:

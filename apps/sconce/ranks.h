@@ -24,8 +24,8 @@ class RankSession {
   /// A stop request ends waiting for other ranks, too.
   void watch(std::stop_token stop) { stop_ = std::move(stop); }
 
-  /// Runs f on every rank and waits for all; f may exchange. Where it threw, so does every rank: its own error
-  /// or the first other, named by its rank.
+  /// Runs f on every rank and waits for all; f may exchange. Where it threw, so does every rank: its own
+  /// error or the first other, named by its rank.
   void together(const std::function<void()>& f);
   /// Runs the job. An error that all ranks know is the first one's to tell; one that only this rank knows is
   /// printed and ends all of them.

@@ -131,7 +131,9 @@ int run_relight(int argc, const char* const* argv) {
   Options options(
       "relight",
       "A picture of a package with lamps that are in none of its layers: their direct light as it is, "
-      "their indirect light by the operator of 'sconce transfer', beside the baked groups.");
+      "their indirect light by the operator of 'sconce transfer', beside the baked groups.",
+      {"sconce relight kitchen.sconce --light point,position=1,1.8,1,lumens=400 -o lamp.png",
+       "sconce relight kitchen.sconce --move pendant=1,1.9,1 --others off", "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   options.option(
@@ -243,6 +245,7 @@ int run_relight(int argc, const char* const* argv) {
                relit.params.width, relit.params.height, 1e3 * relit.seconds.direct,
                1e3 * relit.seconds.indirect, seconds);
   }
+  if (output != "-") options.next({input});
   return kDone;
 }
 

@@ -53,7 +53,10 @@ int run_render(int argc, const char* const* argv) {
   PictureOptions picture;
   Options options("render",
                   "A picture of a package through a camera: base colour x mixed lightmap, visible emitters, "
-                  "exposure, tone curve.");
+                  "exposure, tone curve.",
+                  {"sconce render kitchen.sconce window=off ceiling=2700K,50% -o evening.png",
+                   "sconce render kitchen.sconce --others off lamp=1 --camera stove --size 1920",
+                   "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   picture.declare(options);
@@ -124,6 +127,7 @@ int run_render(int argc, const char* const* argv) {
     fmt::print("{}: {} x {}, camera {}, exposure {}, {:.1f} s\n", output, rendered.params.width,
                rendered.params.height, rendered.camera.name, exposure_text, seconds);
   }
+  if (output != "-") options.next({input});
   return kDone;
 }
 

@@ -54,7 +54,9 @@ int run_serve(int argc, const char* const* argv) {
   Options options(
       "serve",
       "The page of 'export --web' from this machine, with faders that all its windows, and scripts by "
-      "PUT /mix, share. Ctrl-C ends it.");
+      "PUT /mix, share. Ctrl-C ends it.",
+      {"sconce serve kitchen.sconce", "sconce serve kitchen.sconce --port 9000 --allow-write",
+       "sconce export {PACKAGE} --web site"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("--port", &params.port, "0 = any free one");
   options.option("--host", &params.host, "address to listen on; 0.0.0.0 = for every machine around");
@@ -77,6 +79,7 @@ int run_serve(int argc, const char* const* argv) {
   else if (!options.quiet)
     fmt::print("http://{}:{}/ shows {}{}; Ctrl-C ends it\n", params.host, server.port(), input,
                params.allow_write ? "" : ", read-only");
+  options.next({input});
   std::fflush(stdout);
   server.run(progress.stop);
   return kDone;

@@ -113,7 +113,10 @@ int run_shader(int argc, const char* const* argv) {
   Options options(
       "shader",
       "The shader that mixes a package's layers, for another renderer, and a description (JSON) of the "
-      "textures and uniforms it wants.");
+      "textures and uniforms it wants.",
+      {"sconce shader kitchen.sconce --target glsl330",
+       "sconce shader kitchen.sconce --form functions --tone none -o mix.glsl",
+       "sconce export {PACKAGE} --web site"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("-o,--output", &output,
                  "shader to write; the description gets .json behind; - is stdout "
@@ -173,6 +176,7 @@ int run_shader(int argc, const char* const* argv) {
   else if (!options.quiet)
     fmt::print("{}, {}.json: {} groups out of {} textures by {} samplers, {}\n", output, output, spec.groups,
                spec.textures.size(), shader.samplers.size(), target);
+  options.next({input});
   return kDone;
 }
 

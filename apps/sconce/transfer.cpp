@@ -65,6 +65,7 @@ void report(const MadeOperator& made, const TransferJob& job, double seconds, co
     fmt::print("{}: {} receivers, {} samples, {:.1f} MB, {:.1f} s\n", path.string(), op.gather.rows,
                op.slots(), static_cast<double>(bytes) / 1e6, seconds);
   }
+  options.next({job.package.string()});
 }
 
 }  // namespace
@@ -76,7 +77,9 @@ int run_transfer(int argc, const char* const* argv) {
     Options options(
         "transfer",
         "Computes how direct light, wherever lamps will be, becomes indirect light on a package's "
-        "lightmap or on a camera's pixels. 'sconce relight' uses it.");
+        "lightmap or on a camera's pixels. 'sconce relight' uses it.",
+        {"sconce transfer kitchen.sconce", "sconce transfer kitchen.sconce --camera stove --size 640x360",
+         "sconce relight {PACKAGE} --light point,position=1,1.8,1,lumens=400"});
     TransferJob job;
     std::optional<int> code;
     session.together([&] { code = read_job(argc, argv, options, job); });

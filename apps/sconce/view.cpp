@@ -16,7 +16,9 @@ int run_view(int argc, const char* const* argv) {
   bool forget = false;
   Options options("view",
                   "A window on a package: its light groups on faders, the picture following; on a scene, "
-                  "which is baked while you look; or on another renderer's picture with light groups.");
+                  "which is baked while you look; or on another renderer's picture with light groups.",
+                  {"sconce view kitchen.sconce", "sconce view kitchen.glb",
+                   "sconce render {PACKAGE} --preset NAME.toml"});
   options.positional("FILE", &input,
                      "NAME.sconce, a scene (glTF, OBJ) or an OpenEXR picture; none = an empty window", false);
   options.option("--groups-from", &groups_from,
