@@ -25,6 +25,7 @@ struct RelightDevice {
   std::string name = "auto";  ///< auto, cpu, gl
   int patches = 16;           ///< that a lamp with an area is drawn as
   int shadow_side = 1024;     ///< of a shadow map, texels
+  bool reflections = false;   ///< wanted: auto is no OpenGL where something mirrors
 
   /// @throws UsageError
   void check() const;
