@@ -282,5 +282,20 @@ TEST_F(GlPictures, VerbWritesLinearPicturesAndCoverage) {
   EXPECT_EQ(read_exr(path("gl.c.exr")).data, read_exr(path("cpu.c.exr")).data);
 }
 
+TEST_F(GlPictures, SaysThatItDrawsNoReflections) {
+  PackageContents c = test_package(1, 1, 8, 8);
+  c.scene.materials[0].metallic = 1;
+  write_package(path("x.sconce"), c);
+  const auto said = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"render", path("x.sconce"), "--device", "gl", "--size", "8", "-o", path("x.png")});
+    const auto outcome = test::run_sconce(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err.find("draws no reflections") != std::string::npos;
+  };
+  EXPECT_TRUE(said({}));
+  EXPECT_FALSE(said({"--no-reflections"}));
+}
+
 }  // namespace
 }  // namespace sconce

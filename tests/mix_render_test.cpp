@@ -210,6 +210,28 @@ TEST_F(MixRender, PictureFromAPointOfOnesOwn) {
   EXPECT_EQ(read_exr(path("c.exr")).stride(), 1u);
 }
 
+// A mirror whose image of a sky of 4 cd/m2 follows the sky's fader.
+TEST_F(MixRender, ReflectionsFollowTheFaders) {
+  PackageContents c = test_package(1, 1, 8, 8);
+  c.scene.materials[0].metallic = 1;
+  c.scene.materials[0].roughness = 0;
+  Light sky;
+  sky.name = "sky";
+  sky.group = Id<LightGroup>(0);
+  sky.intensity = Rgb(4);
+  sky.shape = SkyLight{};
+  c.scene.lights.push_back(sky);
+  write_package(package(), c);
+  const auto seen = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "--size", "5x5", "--device", "cpu", "-o", path("x.exr")});
+    EXPECT_EQ(run(more).code, 0);
+    return read_exr(path("x.exr")).rgb_at(2, 2).g;
+  };
+  EXPECT_NEAR(seen({}), 0.5f * 4, 1e-5f);
+  EXPECT_NEAR(seen({"a=25%"}), 0.5f, 1e-5f);
+  EXPECT_EQ(seen({"--no-reflections"}), 0);
+}
+
 TEST_F(MixRender, BadRequestsAreOneLineAndLeaveNothing) {
   const std::string out = path("x.png");
   expect_error({"render", "--size", "0x0", "-o", out}, 2, "0x0");

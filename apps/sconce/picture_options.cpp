@@ -13,7 +13,7 @@ namespace sconce::app {
 
 namespace {
 
-constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16;
+constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16, kReflections = 2;
 
 int parse_side(const std::string& text, const std::string& whole) {
   const std::optional<double> value = parse_number(text);
@@ -51,10 +51,14 @@ void PictureOptions::declare(Options& options) {
   options.option("--fov", &fov, "vertical field of view in degrees (default: the camera's)");
   options.option("--size", &size, "WIDTHxHEIGHT, or WIDTH at the camera's aspect (default: 1280)");
   options.option("--samples", &samples, "per pixel; 1 looks at pixel centres");
+  options.flag("--no-reflections", &no_reflections,
+               "mirrors, metals and glossy surfaces show nothing of what they mirror: as OpenGL draws");
   tone.declare(options);
-  options.option("--device", &device,
-                 "auto, cpu, gl (OpenGL), software (as hardware without shaders would: an 8-bit lightmap, "
-                 "tone mapped before the texture); auto draws by OpenGL where there is a graphics device");
+  options.option(
+      "--device", &device,
+      "auto, cpu, gl (OpenGL), software (as hardware without shaders would: an 8-bit lightmap, "
+      "tone mapped before the texture); auto draws by OpenGL where there is a graphics device and nothing in "
+      "the scene mirrors");
   options.option(
       "--tier", &tier,
       "what OpenGL's textures may be: auto, full, half, unfiltered, byte; for trying lesser devices");
@@ -106,6 +110,7 @@ PictureParams PictureOptions::params(const Camera& found) const {
   out.height =
       wanted.height > 0 ? wanted.height : static_cast<int>(std::clamp(height, 1.0f, float{kMaxSide}));
   out.samples = samples;
+  out.reflections = no_reflections ? 0 : kReflections;
   return out;
 }
 

@@ -26,6 +26,7 @@ struct PictureOptions {
   ToneOptions tone;
   double fov = 0;
   int samples = 16;
+  bool no_reflections = false;
 
   void declare(Options& options);
   /// Values that the command line left open come from the preset. @throws UsageError

@@ -115,6 +115,9 @@ void find_view(const Operator& op, const View& view, const PictureOptions& pictu
   out.camera.yfov = op.camera_yfov;
   out.params.width = op.width, out.params.height = op.height;
   out.params.samples = picture.samples;
+  // Its light is known where its pixels look, not where mirrors do.
+  if (!picture.no_reflections && view.scene().has_mirrors())
+    progress.warn("an operator for pixels shows no reflections: --no-reflections is silent");
 }
 
 }  // namespace
@@ -166,6 +169,7 @@ int run_relight(int argc, const char* const* argv) {
   picture.check();
   if (picture.tier != "auto") throw UsageError({}, "--tier is for 'sconce render'");
   device.name = picture.device;
+  device.reflections = !picture.no_reflections && !pixels;
   device.check();
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");

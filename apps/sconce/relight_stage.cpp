@@ -78,6 +78,7 @@ class GlRelightStage : public RelightStage {
   }
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
              const PictureParams& params, const Progress& progress) override {
+    if (params.reflections > 0 && job_.view.scene().has_mirrors()) progress.warn(kNoReflections);
     view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
     for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
       std::string line = report.file + ": NaN or infinity, painted over:";
@@ -123,7 +124,8 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
     throw UsageError("option '--device'", "light shaders need OpenGL", "gl, auto");
   for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
-  if (auto context = open_context(job.shaders.empty() ? device.name : "gl")) {
+  const bool traced = device.name == "auto" && device.reflections && job.view.scene().has_mirrors();
+  if (auto context = open_context(!job.shaders.empty() ? "gl" : traced ? "cpu" : device.name)) {
     try {
       std::vector<gpu::LampShader> all =
           gpu::lamp_shaders(job.lamps.lamps(), job.lamps.chosen(), device.patches, device.shadow_side);

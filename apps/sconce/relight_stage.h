@@ -26,6 +26,7 @@ struct RelightDevice {
   int shadow_side = 1024;     ///< of a shadow map, texels; patches and terms of light fields: a quarter
   int terms_per_pass = 0;     ///< gpu::NearLightParams
   bool srgbe = false;
+  bool reflections = false;  ///< wanted: auto is no OpenGL where something mirrors
 
   /// @throws UsageError
   void check() const;

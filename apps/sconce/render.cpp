@@ -33,7 +33,7 @@ Rendered render(const Package& package, const PictureOptions& picture, const Mix
                 const Preset& preset, bool metered, const Progress& progress) {
   Rendered out;
   out.mix = settings.make(preset, package.manifest().groups, progress);
-  out.stage = make_stage(package, picture.device, picture.tier);
+  out.stage = make_stage(package, picture.device, picture.tier, !picture.no_reflections);
   out.camera =
       picture.find_camera(out.stage->scene(), [&] { return out.stage->eye_height_camera(progress); });
   out.params = picture.params(out.camera);

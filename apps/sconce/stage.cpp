@@ -95,6 +95,7 @@ class GlStage : public Stage {
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
     check_pages(package_->manifest(), mix, pages);
+    if (params.reflections > 0 && scene().has_mirrors()) progress.warn(kNoReflections);
     const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
     view_.draw(camera, mix.weights, *light, params, progress);
   }
@@ -126,11 +127,12 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device) {
   }
 }
 
-std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
-                                  const std::string& tier) {
+std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device, const std::string& tier,
+                                  bool reflections) {
   if (device == "software") return std::make_unique<SoftwareStage>(package);
-  if (auto context = open_context(device))
-    return std::make_unique<GlStage>(package, std::move(context), tier);
+  auto context = open_context(device);
+  if (context && device == "auto" && reflections && package.scene().has_mirrors()) context.reset();
+  if (context) return std::make_unique<GlStage>(package, std::move(context), tier);
   return std::make_unique<CpuStage>(package);
 }
 

@@ -34,10 +34,15 @@ std::unique_ptr<gpu::Context> open_context(const std::string& device);
 
 /// @param package  must outlive it
 /// @param device   cpu, gl, software (picture/fixed_function.h), or auto: OpenGL where there is a graphics
-/// device
+/// device that draws all that is wanted
 /// @param tier     of shader/composer.h, for OpenGL; "auto" = the best that the device has
+/// @param reflections  are wanted: OpenGL has none, and says so where something mirrors
 /// @throws Error when gl is asked for and there is no OpenGL
 std::unique_ptr<Stage> make_stage(const Package& package, const std::string& device,
-                                  const std::string& tier = "auto");
+                                  const std::string& tier = "auto", bool reflections = false);
+
+/// What OpenGL says where it leaves them out.
+inline constexpr const char* kNoReflections =
+    "OpenGL draws no reflections: --device cpu does, --no-reflections is silent";
 
 }  // namespace sconce::app

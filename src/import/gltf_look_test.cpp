@@ -35,7 +35,7 @@ TEST(GltfMaterials, AllThatALightmapNeeds) {
       "rotation":1.5,"texCoord":3}}}},"emissiveFactor":[1,0.5,0.25],"emissiveTexture":{"index":1},
       "extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":200}},"alphaMode":"MASK","alphaCutoff":0.3,"doubleSided":true},
     {"name":"plain"},{"name":"glass","alphaMode":"BLEND"},
-    {"name":"unlit","extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorTexture":{"index":2}}}],
+    {"name":"unlit","extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"roughnessFactor":0.1,"baseColorTexture":{"index":2}}}],
     "textures":[{"source":0,"sampler":0},{"source":1},{"source":0}],"images":[{"uri":"base.png"},{"uri":"glow.png"}],
     "samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}])",
                                   folder, w.progress);
@@ -71,6 +71,7 @@ TEST(GltfMaterials, AllThatALightmapNeeds) {
   EXPECT_EQ(scene.materials[2].alpha_mode, Material::Alpha::blend);
   EXPECT_TRUE(w.any("'glass' blends"));
   EXPECT_FLOAT_EQ(scene.materials[3].metallic, 0);
+  EXPECT_FALSE(scene.materials[3].mirrors());
 }
 
 TEST(GltfMaterials, NormalMapsAndTangents) {

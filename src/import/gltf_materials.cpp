@@ -42,7 +42,7 @@ TextureUse texture_use(GltfTextures& textures, const tinygltf::TextureInfo& info
 
 /// KHR_materials_pbrSpecularGlossiness: its diffuse part.
 void read_diffuse(const tinygltf::Value& e, GltfTextures& textures, const std::string& place, Material& out) {
-  out.metallic = 0;
+  out.metallic = 0, out.roughness = 1;
   out.metallic_roughness_texture = {};
   out.base_color = Rgb(1);
   if (e.Has("diffuseFactor") && e.Get("diffuseFactor").ArrayLen() == 4) {
@@ -76,9 +76,8 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
   out.base_color_texture = texture_use(textures, pbr.baseColorTexture, place + ".baseColorTexture");
   if (pbr.baseColorTexture.index >= 0 && !out.base_color_texture.texture)
     out.base_color *= kMissingTextureGrey;
-  if (out.metallic > 0)
-    out.metallic_roughness_texture =
-        texture_use(textures, pbr.metallicRoughnessTexture, place + ".metallicRoughness");
+  out.metallic_roughness_texture =
+      texture_use(textures, pbr.metallicRoughnessTexture, place + ".metallicRoughness");
   if (const tinygltf::Value* e = extension(m.extensions, "KHR_materials_pbrSpecularGlossiness"))
     read_diffuse(*e, textures, place + ".diffuseTexture", out);
 
@@ -103,7 +102,7 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
   out.alpha_cutoff = static_cast<float>(m.alphaCutoff);
   out.double_sided = m.doubleSided;
   if (extension(m.extensions, "KHR_materials_unlit") != nullptr)
-    out.metallic = 0;  // its colour is all it says
+    out.metallic = 0, out.roughness = 1, out.metallic_roughness_texture = {};  // its colour is all it says
   return out;
 }
 

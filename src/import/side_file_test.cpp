@@ -132,6 +132,10 @@ TEST(SideFile, EmissionOfMaterialsAndNodes) {
       "\"wall\"\nlumens = 100\nkelvin = 6504\n");
   EXPECT_NEAR(wall[wall[wall.instances[2].mesh].material].emission.g, 100 / (2 * kPi), 1e-3);  // both sides
   EXPECT_EQ(wall.materials[1].base_color, Rgb(1));
+
+  const Scene tiled = room.with("[[material]]\nmatch=\"plaster\"\nroughness=0.2\nmetallic=0\n");
+  EXPECT_EQ(tiled.materials[1].roughness, 0.2f);
+  EXPECT_TRUE(tiled.materials[1].mirrors());
 }
 
 TEST(SideFile, CamerasAndSky) {

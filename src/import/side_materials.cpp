@@ -103,17 +103,22 @@ Emitters emitters(const SideContext& context, const SideTable& table) {
 
 void apply_material(const SideContext& context, const SideNode& node) {
   const SideTable table(context.path.string(), "[[material]]", node,
-                        {"match", "base_color", "metallic", "double_sided"});
+                        {"match", "base_color", "metallic", "roughness", "double_sided"});
   const auto glob = table.text("match");
   if (!glob) table.fail({}, "names no material", "match = \"glob\"");
   const auto base = table.color("base_color");
   if (base && base->max() > 1) table.fail("base_color", "reflects more than it gets", "0 to 1");
-  const auto metallic = table.not_negative("metallic");
-  if (metallic && *metallic > 1) table.fail("metallic", "is out of range", "0 to 1");
+  const auto share = [&](const char* key) {
+    const auto value = table.not_negative(key);
+    if (value && *value > 1) table.fail(key, "is out of range", "0 to 1");
+    return value;
+  };
+  const auto metallic = share("metallic"), roughness = share("roughness");
   for (const std::size_t i : matching(context, table, "match", *glob, material_names(context.scene))) {
     Material& m = context.scene.materials[i];
     if (base) m.base_color = *base;
     if (metallic) m.metallic = static_cast<float>(*metallic);
+    if (roughness) m.roughness = static_cast<float>(*roughness);
     if (const auto sides = table.flag("double_sided")) m.double_sided = *sides;
   }
 }

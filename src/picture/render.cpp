@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "picture/gloss.h"
 #include "picture/seen.h"
 
 namespace sconce {
@@ -13,6 +14,10 @@ namespace sconce {
 namespace {
 
 constexpr int kTile = 32;  // pixels
+constexpr uint32_t kLobeStream = 0x6c6f6265u;
+// Where a ray meets a lobe wider than a pixel, several rays follow it: a lamp in it is small and bright.
+constexpr float kSharp = 0.05f;  // roughness
+constexpr uint32_t kLobeRays = 4;
 
 /// Bilinear between texel centres, clamped at the page's edges.
 Rgb bilinear(const Image& page, Vec2 uv) {
@@ -39,21 +44,41 @@ Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {
   return {std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)};
 }
 
-View::Seen View::look(const Ray& ray, const Mixed& mix,
-                      const std::function<Rgb(const SurfacePoint&)>& added) const {
+Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Sight& sight, int met) const {
+  const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
+  SurfacePoint at = surface_point(world(), hit);
+  Rgb light = illuminance(hit, sight.mix);
+  if (lit && sight.added) light += sight.added(at);
+  const Rgb diffuse = surface.receiver_albedo() * light * kInvPi;
+  if (!lit || sight.reflections == 0 || !mirrors(surface)) return diffuse;
+  if (met == sight.reflections) return surface.base_color * light * kInvPi;
+
+  const Vec3 mapped = normal_offset(scene(), world(), hit.triangle, hit.barycentric);
+  at.shading_normal += hit.back ? -mapped : mapped;
+  const uint32_t rays = met == 0 && surface.roughness > kSharp ? kLobeRays : 1;
+  Rgb sum;
+  for (uint32_t i = 0; i < rays; ++i) {
+    Sight onwards = sight;
+    onwards.index = sight.index * rays + i;
+    const Vec2 u = sobol_pair(onwards.index, static_cast<uint32_t>(met), sight.stream);
+    const Gloss part = gloss(surface, -ray.direction, at, u);
+    const Vec3 start = offset_origin(at.position, at.geometric_normal, part.direction);
+    sum += part.diffuse * diffuse + part.mirrored * look({start, part.direction}, onwards, met + 1).radiance;
+  }
+  return sum / static_cast<float>(rays);
+}
+
+View::Seen View::look(const Ray& ray, const Sight& sight, int met) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   Shade surface;
   if (hit) {
     surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-    Rgb light = illuminance(hit, mix);
-    const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
-    if (lit && added) light += added(surface_point(world(), hit));
-    seen.radiance = surface.receiver_albedo() * light * kInvPi;
+    seen.radiance = reflected(ray, hit, surface, sight, met);
   }
   for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
     seen.emitter = seen.emitter || !shine.is_black();
-    seen.radiance += weight_of(mix.spec, group) * shine;
+    seen.radiance += weight_of(sight.mix.spec, group) * shine;
   });
   return seen;
 }
@@ -76,10 +101,13 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
   const auto pixel = [&](int x, int y) {
     Rgb sum;
     int emitters = 0;
+    const auto id = static_cast<uint32_t>(y) * static_cast<uint32_t>(params.width) + static_cast<uint32_t>(x);
+    const uint32_t stream = mix32(id, params.seed ^ kLobeStream);
     for (int s = 0; s < params.samples; ++s) {
-      std::function<Rgb(const SurfacePoint&)> here;
-      if (added) here = [&](const SurfacePoint& at) { return added(at, x, y, static_cast<uint32_t>(s)); };
-      const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, mixed, here);
+      const auto index = static_cast<uint32_t>(s);
+      Sight sight{mixed, {}, params.reflections, stream, index};
+      if (added) sight.added = [&](const SurfacePoint& at) { return added(at, x, y, index); };
+      const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, sight);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CPU picture: camera rays, mixed lightmap x base colour, visible emitters following their faders.
+// The CPU picture: camera rays, mixed lightmap x base colour, visible emitters following their faders, and
+// what mirrors, metals and glossy surfaces show of them.
 #pragma once
 
 #include <functional>
@@ -27,11 +28,12 @@ class View {
 
   /// Linear picture, luminance in cd/m2 per channel, before exposure and tone curve: sum_g w_g (eps_g +
   /// rho/pi E_g). Backs are black, but for those with a lightmap of their own (twins) and for what
-  /// double-sided materials emit. Rays that leave the scene see its skies. The same bits with any number of
-  /// threads.
+  /// double-sided materials emit. Rays that leave the scene see its skies. With params.reflections surfaces
+  /// also show what they mirror (picture/gloss.h), lit by the same mix; the last in a row shows all that it
+  /// reflects without direction, rho/pi E. The same bits with any number of threads.
   /// @param pages       mix_pages() of the same mix
-  /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky), one
-  /// channel
+  /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky)
+  /// directly, one channel
   /// @param added       light beside the lightmap's; may be empty
   /// @param components  mix_components() of the same mix: with them normal maps are seen, E = max(0, E + g .
   /// (n - n_s)); without them surfaces are as smooth as their geometry
@@ -41,8 +43,8 @@ class View {
                const AddedLight& added = {}, const std::vector<Image>& components = {}) const;
   /// Whether components would be seen.
   bool sees_normal_maps() const;
-  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move. Normal maps are
-  /// not seen.
+  /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move. Normal maps
+  /// are not seen.
   /// @throws as render()
   CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
                   const Progress& progress = {}) const;
@@ -71,7 +73,16 @@ class View {
     const MixSpec& spec;
     const std::vector<Image>&pages, &components;
   };
-  Seen look(const Ray& ray, const Mixed& mix, const std::function<Rgb(const SurfacePoint&)>& added) const;
+  /// What a camera ray is followed with.
+  struct Sight {
+    const Mixed& mix;
+    std::function<Rgb(const SurfacePoint&)> added;
+    int reflections;
+    uint32_t stream, index;  ///< random numbers of the mirrors' lobes
+  };
+  /// @param met  mirrors behind this ray
+  Seen look(const Ray& ray, const Sight& sight, int met = 0) const;
+  Rgb reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Sight& sight, int met) const;
   Rgb illuminance(const Hit& hit, const Mixed& mix) const;
   Camera eye_height_camera() const;
 

@@ -10,6 +10,9 @@ struct PictureParams {
   int width = 1280, height = 720;
   int samples = 16;  ///< per pixel, box filter of one pixel; 1 = at the pixel's centre
   uint32_t seed = 0;
+  /// Mirrors, metals and glossy surfaces that a camera ray is followed over, one behind the other. 0 = none
+  /// shows what it mirrors: what rasterisation and cached hits draw in any case.
+  int reflections = 0;
 
   /// @throws UsageError for a size or sample count below 1
   void check() const;

@@ -57,6 +57,11 @@ struct Material {
   bool double_sided = false;
 
   bool emits() const { return !emission.is_black(); }
+  /// Dielectrics no rougher than this show what they mirror; metals always do.
+  static constexpr float kGlossy = 0.4f;
+  bool mirrors() const {
+    return metallic > 0 || roughness <= kGlossy || metallic_roughness_texture.texture.valid();
+  }
 };
 
 struct Triangle {
@@ -164,6 +169,9 @@ struct Scene {
   bool has_normal_maps() const {
     return std::any_of(materials.begin(), materials.end(),
                        [](const Material& m) { return m.normal_texture.texture.valid(); });
+  }
+  bool has_mirrors() const {
+    return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.mirrors(); });
   }
   bool emits(const Instance& instance) const { return (*this)[(*this)[instance.mesh].material].emits(); }
 };

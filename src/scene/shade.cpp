@@ -104,6 +104,7 @@ Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 b
   result.base_color = material.base_color;
   result.alpha = material.alpha;
   result.metallic = material.metallic;
+  result.roughness = material.roughness;
   result.emission = material.emission;
   const auto look_up = [&](const TextureUse& use, bool srgb) {
     return sample_texture(scene, use, world.texcoord(triangle, barycentric, use.texcoord), srgb);
@@ -113,8 +114,11 @@ Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 b
     result.base_color *= texel.rgb;
     result.alpha *= texel.alpha;
   }
-  if (material.metallic_roughness_texture.texture.valid())
-    result.metallic *= look_up(material.metallic_roughness_texture, false).rgb.b;
+  if (material.metallic_roughness_texture.texture.valid()) {
+    const Texel texel = look_up(material.metallic_roughness_texture, false);
+    result.metallic *= texel.rgb.b;
+    result.roughness *= texel.rgb.g;
+  }
   if (material.emits() && material.emission_texture.texture.valid())
     result.emission *= look_up(material.emission_texture, true).rgb;
   return result;

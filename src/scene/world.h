@@ -54,7 +54,7 @@ Vec3 normal_offset(const Scene& scene, const World& world, std::size_t triangle,
 /// (contract.md).
 struct Shade {
   Rgb base_color, emission;
-  float alpha = 1, metallic = 0;
+  float alpha = 1, metallic = 0, roughness = 1;
   Rgb receiver_albedo() const { return base_color * (1.0f - metallic); }
 };
 Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 barycentric);
