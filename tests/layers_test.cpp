@@ -105,11 +105,11 @@ TEST(Layers, IncludesKeepToTheList) {
     for (const Include& include : includes_of(file)) {
       if (!include.quoted) continue;
       const std::string from = include.path.substr(0, include.path.find('/'));
-      // A shader is included as the literal that CMake makes of it.
-      const bool shader = include.path.ends_with(".glsl.h");
-      const bool lamp = shader && from == "lights";  // a text that users copy, in no module
+      // Shaders and scripts are included as the literals that CMake makes of them.
+      const bool literal = include.path.ends_with(".glsl.h") || include.path.ends_with(".py.h");
+      const bool lamp = literal && from == "lights";  // a text that users copy, in no module
       EXPECT_TRUE(fs::exists(kRoot / (lamp ? "examples" : "src") /
-                             include.path.substr(0, include.path.size() - (shader ? 2 : 0))))
+                             include.path.substr(0, include.path.size() - (literal ? 2 : 0))))
           << shown(file) << " includes \"" << include.path << "\"";
       if (lamp) continue;
       EXPECT_TRUE(allowed.at(module).contains(from))
