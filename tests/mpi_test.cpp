@@ -80,7 +80,7 @@ TEST_F(Mpi, AnyNumberOfRanksGivesTheSameBits) {
       const test::Outcome outcome = test::run_sconce(bake(output, {"--solver", solver}), mpirun(ranks));
       ASSERT_EQ(outcome.code, 0) << outcome.err;
       EXPECT_EQ(bytes(output), one) << output;
-      EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 3) << "said once: " << outcome.out;
+      EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 4) << "said once: " << outcome.out;
       EXPECT_FALSE(fs::exists(folder / (output + ".state")));
       EXPECT_FALSE(fs::exists(folder / (output + ".state.1")));
     }
@@ -102,7 +102,7 @@ TEST_F(Mpi, TransferGivesTheSameBitsAndGoesOn) {
     fs::remove(op);
     const test::Outcome outcome = test::run_sconce(transfer, mpirun(ranks));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << "said once: " << outcome.out;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << "said once: " << outcome.out;
     EXPECT_TRUE(read_file(op) == one) << ranks;
   }
   Words on = transfer;
