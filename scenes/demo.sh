@@ -13,13 +13,14 @@ scenes=$(cd "$(dirname "$0")" && pwd)
 cmake --build "$build" --target sconce contact_sheet
 mkdir -p "$out"
 
-"$build/sconce" bake "$scenes/bathroom.glb" -o "$out/bathroom.sconce" --density 40 --quality normal --denoise on
+"$build/sconce" bake "$scenes/bathroom.glb" -o "$out/bathroom.sconce" --density 40 --quality normal --denoise on | sed '/^next: /d'
 
 sheet=()
 for mood in morning evening night cleaning; do
   "$build/sconce" render "$out/bathroom.sconce" --preset "$scenes/moods/$mood.toml" --camera main --size 960x540 \
-    -o "$out/$mood.png"
+    -o "$out/$mood.png" | sed '/^next: /d'
   sheet+=("$out/$mood.png" "$mood")
 done
 "$build/scenes/contact_sheet" "$out/contact-sheet.png" 2 "${sheet[@]}"
 echo "four moods from one bake: $out/contact-sheet.png"
+echo "next: $build/sconce view $out/bathroom.sconce"
