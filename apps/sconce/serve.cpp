@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/scratch_folder.h"
 #include "web/server.h"
 #include "web_site.h"
 
@@ -14,26 +15,6 @@ namespace fs = std::filesystem;
 namespace sconce::app {
 
 namespace {
-
-/// A folder of our own that goes with us.
-class PageFolder {
- public:
-  PageFolder() {
-    std::string name = (fs::temp_directory_path() / "sconce-serve-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made");
-    path_ = name;
-  }
-  ~PageFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PageFolder(const PageFolder&) = delete;
-  PageFolder& operator=(const PageFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// The page looks for a server where it is told to.
 void mark_live(const fs::path& index, bool writes) {
@@ -69,7 +50,7 @@ int run_serve(int argc, const char* const* argv) {
 
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
-  const PageFolder folder;
+  const ScratchFolder folder;
   write_web_site(input, folder.path(), web, progress);
   mark_live(folder.path() / "index.html", params.allow_write);
   params.folder = folder.path();

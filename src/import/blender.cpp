@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blender's files, by Blender itself: it runs sconce_blender.py, and what that writes is read.
-#include <unistd.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
@@ -9,6 +7,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/program.h"
+#include "core/scratch_folder.h"
 #include "core/text.h"
 #include "import/import.h"
 
@@ -21,26 +20,6 @@ namespace {
 constexpr const char* kScript =
 #include "import/sconce_blender.py.h"
     ;
-
-/// A folder of our own that goes with us.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "sconce-blend-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// Blender's lines that are ours ("sconce: ...") are warnings.
 void pass_on_warnings(const fs::path& output, const std::string& where, const Progress& progress) {
@@ -65,7 +44,8 @@ Scene import_blend(const fs::path& path, const Progress& progress) {
   const std::string where = path.string();
   if (std::error_code ec; !fs::is_regular_file(path, ec)) throw Error(where, "no such file");
   const char* given = std::getenv("BLENDER");
-  const Scratch folder;
+  const ScratchFolder scratch;
+  const fs::path& folder = scratch.path();
   const fs::path script = folder / "sconce_blender.py", scene = folder / "scene.glb", out = folder / "out",
                  errors = folder / "errors";
   write_file(script, kScript);
