@@ -9,6 +9,7 @@
 #include "mix/mix.h"
 #include "package/test_package.h"
 #include "process.h"
+#include "scene/shapes.h"
 
 namespace sconce {
 namespace {
@@ -215,12 +216,7 @@ TEST_F(MixRender, ReflectionsFollowTheFaders) {
   PackageContents c = test_package(1, 1, 8, 8);
   c.scene.materials[0].metallic = 1;
   c.scene.materials[0].roughness = 0;
-  Light sky;
-  sky.name = "sky";
-  sky.group = Id<LightGroup>(0);
-  sky.intensity = Rgb(4);
-  sky.shape = SkyLight{};
-  c.scene.lights.push_back(sky);
+  add_sky(c.scene, Rgb(4), Id<LightGroup>(0));
   write_package(package(), c);
   const auto seen = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"render", "--size", "5x5", "--device", "cpu", "-o", path("x.exr")});

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "package/test_package.h"
+#include "scene/shapes.h"
 
 namespace sconce {
 namespace {
@@ -164,12 +165,7 @@ TEST_F(Picture, TwinIsSeenFromBehind) {
 
 TEST_F(Picture, SkyIsSeenThroughItsFader) {
   PackageContents c = constant(100);
-  Light sky;
-  sky.name = "sky";
-  sky.group = Id<LightGroup>(0);
-  sky.intensity = {2, 3, 4};
-  sky.shape = SkyLight{};
-  c.scene.lights.push_back(sky);
+  add_sky(c.scene, Rgb(2, 3, 4), Id<LightGroup>(0));
   const Package package = write(c);
   const View view(package);
   const MixSpec mix{{Rgb(0.5f)}};
@@ -363,12 +359,7 @@ TEST_F(Picture, ReflectionsKeepEnergy) {
   reflections_ = 2;
   for (const float roughness : {0.0f, 0.1f, 0.4f, 0.8f}) {
     PackageContents c = constant(kPi);
-    Light sky;
-    sky.name = "sky";
-    sky.group = Id<LightGroup>(0);
-    sky.intensity = Rgb(1);
-    sky.shape = SkyLight{};
-    c.scene.lights.push_back(sky);
+    add_sky(c.scene, Rgb(1), Id<LightGroup>(0));
     c.scene.materials[0] = metal(Rgb(1), roughness);
     expect_all(render(c, 1, 8), Rgb(1));
     c.scene.materials[0].metallic = 0;

@@ -8,6 +8,7 @@
 
 #include "package/test_package.h"
 #include "picture/render.h"
+#include "scene/shapes.h"
 #include "tone/apply.h"
 
 namespace sconce {
@@ -32,12 +33,7 @@ inline PackageContents lit_wall(int width, int height) {
     c.manifest.instance_pages.push_back(1);
     c.manifest.instance_twins.push_back(-1);
   }
-  Light sky;
-  sky.name = "sky";
-  sky.group = Id<LightGroup>(2);
-  sky.intensity = {0.2f, 0.4f, 0.9f};
-  sky.shape = SkyLight{};
-  c.scene.lights.push_back(sky);
+  add_sky(c.scene, Rgb(0.2f, 0.4f, 0.9f), Id<LightGroup>(2));
   c.scene.cameras[0].yfov = 1.3f;  // past the wall's edges
   return c;
 }

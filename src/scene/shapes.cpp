@@ -106,4 +106,13 @@ Id<Instance> add_disk(Scene& scene, const std::string& name, Id<Material> materi
   return place(scene, name, std::move(mesh));
 }
 
+void add_sky(Scene& scene, const Rgb& radiance, Id<LightGroup> group) {
+  Light sky;
+  sky.name = "sky";
+  sky.group = group;
+  sky.intensity = radiance;
+  sky.shape = SkyLight{};
+  scene.lights.push_back(std::move(sky));
+}
+
 }  // namespace sconce

@@ -26,4 +26,7 @@ Id<Instance> add_sphere(Scene& scene, const std::string& name, Id<Material> mate
 Id<Instance> add_disk(Scene& scene, const std::string& name, Id<Material> material, const Vec3& center,
                       const Vec3& normal, float radius, int n);
 
+/// A sky, the same everywhere. @param radiance  cd/m2
+void add_sky(Scene& scene, const Rgb& radiance, Id<LightGroup> group = {});
+
 }  // namespace sconce

@@ -96,11 +96,7 @@ TEST_P(Sh1, DistantLight) {
 // tilted surface gets in truth, pi L (1 + cos) / 2.
 TEST_P(Sh1, EvenSky) {
   Scene scene = black_floor();
-  Light sky;
-  sky.name = "sky";
-  sky.intensity = Rgb(1000, 2000, 3000);
-  sky.shape = SkyLight{};
-  scene.lights.push_back(sky);
+  add_sky(scene, Rgb(1000, 2000, 3000));
   const LitScene lit(std::move(scene), Grouping::per_light);
   const Vec3 up(0, 1, 0), tilted = glm::normalize(Vec3(1, 1, 0.5f));
   const Directional v = solve(lit, Vec3(0), up, 8192)[0];

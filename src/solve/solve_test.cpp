@@ -137,11 +137,7 @@ TEST_P(EverySolver, ConstantSkyOverOpenGround) {
   Scene scene;
   add_quad(scene, "floor", add_material(scene, "grey", Rgb(0.5f)), Vec3(-9, 0, -9), Vec3(0, 0, 18),
            Vec3(18, 0, 0));
-  Light sky;
-  sky.name = "sky";
-  sky.intensity = Rgb(1000, 2000, 3000);
-  sky.shape = SkyLight{};
-  scene.lights.push_back(sky);
+  add_sky(scene, Rgb(1000, 2000, 3000));
   const Rig rig(std::move(scene));
   const Rgb e = rig.at(*GetParam(), Vec3(0), Vec3(0, 1, 0), 8192)[0].illuminance;
   EXPECT_NEAR(e.r, 1000 * static_cast<double>(kPi), 10);
