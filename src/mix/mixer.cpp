@@ -66,6 +66,10 @@ void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<s
     for (const EncodedImage& page : texture->pages) bytes_read_ += page.data.size();
   for (std::size_t page = 0; page < sum_.size(); ++page) {
     Image& sum = sum_[page];
+    std::vector<Weighted> terms;
+    for (std::size_t i = 0; i < textures.size(); ++i)
+      terms.push_back({textures[i]->tables, textures[i]->pages[page], weights[i],
+                       textures[i]->layout.encoding.luminance});
     const std::size_t row = 3 * static_cast<std::size_t>(sum.width);
     const int band_rows = std::max(1, kTexels / sum.width);
     parallel_for(static_cast<std::size_t>((sum.height + band_rows - 1) / band_rows), 1,
@@ -74,10 +78,6 @@ void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<s
                              rows = std::min(band_rows, sum.height - first);
                    float* to = &sum.data[static_cast<std::size_t>(first) * row];
                    if (clear) std::fill_n(to, row * static_cast<std::size_t>(rows), 0.0f);
-                   std::vector<Weighted> terms;
-                   for (std::size_t i = 0; i < textures.size(); ++i)
-                     terms.push_back({textures[i]->tables, textures[i]->pages[page], weights[i],
-                                      textures[i]->layout.encoding.luminance});
                    add_weighted(terms, first, rows, to);
                  });
   }
