@@ -113,16 +113,18 @@ struct NearLights::Field {
   Vec2 low, texel;  ///< corner and texels of shadow maps on M, m
 };
 
+struct NearLights::Programs {
+  explicit Programs(bool srgbe)
+      : points("light field on points", whole(octahedral_glsl(), kPoints)),
+        pixels("light field on pixels", on_pixels(srgbe)),
+        shapes("shadow maps of a light field", kVertex, kGeometry, kFragment) {}
+  Program points, pixels, shapes;
+};
+
 NearLights::NearLights(const Context& context, const Geometry& geometry, const Bounds& bounds,
                        const Lamps& lamps, std::span<const std::pair<std::size_t, Rgb>> chosen,
                        const NearLightParams& params)
-    : context_(&context),
-      geometry_(&geometry),
-      params_(params),
-      end_(1e-4f * bounds.diagonal()),
-      points_("light field on points", whole(octahedral_glsl(), kPoints)),
-      pixels_("light field on pixels", on_pixels(params.srgbe)),
-      shapes_("shadow maps of a light field", kVertex, kGeometry, kFragment) {
+    : context_(&context), geometry_(&geometry), params_(params), end_(1e-4f * bounds.diagonal()) {
   for (const auto& [number, weight] : chosen) {
     const auto* shape = std::get_if<NearFieldLamp>(&lamps.all()[number].shape);
     if (shape == nullptr) continue;
@@ -141,6 +143,7 @@ NearLights::NearLights(const Context& context, const Geometry& geometry, const B
                         .filter = GL_NEAREST},
           "shadow maps of a light field");
   }
+  if (!lamps_.empty()) programs_ = std::make_unique<Programs>(params.srgbe);
   context.check("preparing light fields");
 }
 
@@ -164,18 +167,19 @@ void NearLights::use(const Program& program, const Lamp& lamp) const {
 }
 
 void NearLights::draw_maps(const Lamp& lamp, int first, int count) {
+  const Program& shapes = programs_->shapes;
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
-  use(shapes_, lamp);
-  shapes_.set("size", static_cast<float>(params_.shadow_side));
+  use(shapes, lamp);
+  shapes.set("size", static_cast<float>(params_.shadow_side));
   const Framebuffer target(Framebuffer::DepthOnly{}, *lamp.depths);
   target.use();
   target.clear();
   for (int layer = 0; layer < count; layer += kLayersAtOnce) {
-    shapes_.set("near_first", first + layer), shapes_.set("near_layer", layer);
-    shapes_.set("near_count", std::min(kLayersAtOnce, count - layer));
-    geometry_->draw_shapes(shapes_);
+    shapes.set("near_first", first + layer), shapes.set("near_layer", layer);
+    shapes.set("near_count", std::min(kLayersAtOnce, count - layer));
+    geometry_->draw_shapes(shapes);
     ++passes_.shadows;
   }
   glDisable(GL_DEPTH_TEST);
@@ -199,8 +203,8 @@ void NearLights::each_pass(Lamp& lamp, const Program& program, const F& sum) {
 void NearLights::light_cloud(const Buffer& points, uint32_t slots, uint32_t points_per_slot,
                              const Buffer& exitance) {
   for (Lamp& lamp : lamps_)
-    each_pass(lamp, points_, [&] {
-      points_.set("sconce_slots", slots), points_.set("sconce_per_slot", points_per_slot);
+    each_pass(lamp, programs_->points, [&] {
+      programs_->points.set("sconce_slots", slots), programs_->points.set("sconce_per_slot", points_per_slot);
       points.bind(0), exitance.bind(1);
       dispatch((slots + kPointsOfGroup - 1) / kPointsOfGroup);
       buffers_written();
@@ -210,14 +214,15 @@ void NearLights::light_cloud(const Buffer& points, uint32_t slots, uint32_t poin
 
 void NearLights::add(const SeenSurfaces& seen, const Texture& picture) {
   std::optional<Texture> kept;
-  if (params_.srgbe) {
+  if (params_.srgbe && !lamps_.empty()) {
     kept.emplace(
         *context_,
         TextureParams{.format = GL_RGBA8, .width = picture.params().width, .height = picture.params().height},
         "sums of a light field");
     glBindImageTexture(1, kept->handle(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA8);
   }
-  for (Lamp& lamp : lamps_) each_pass(lamp, pixels_, [&] { seen.shade(pixels_, picture); });
+  for (Lamp& lamp : lamps_)
+    each_pass(lamp, programs_->pixels, [&] { seen.shade(programs_->pixels, picture); });
   context_->check("lighting the picture by light fields");
 }
 

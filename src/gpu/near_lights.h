@@ -63,7 +63,8 @@ class NearLights : public AddedLight {
   float end_;  ///< of shadow maps, m
   std::map<const NearField*, std::unique_ptr<Field>> fields_;
   std::vector<Lamp> lamps_;
-  Program points_, pixels_, shapes_;
+  struct Programs;
+  std::unique_ptr<Programs> programs_;  ///< null where there are no such lamps
   Passes passes_;
 };
 
