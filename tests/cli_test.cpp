@@ -163,7 +163,7 @@ TEST(Cli, ExamplesAreOfOptionsThatThereAre) {
 
 TEST(Cli, ColourOnlyOnTerminalsThatWantIt) {
   const auto on_terminal = [](const std::string& variable) {
-    const std::string command = variable + " " + test::shell_quoted(SCONCE_PROGRAM) + " rendr";
+    const std::string command = variable + " " + shell_word(SCONCE_PROGRAM) + " rendr";
     return test::run_program("script", {"-qec", command, "/dev/null"}).out;
   };
   EXPECT_NE(on_terminal("TERM=xterm").find("\033[1;31m"), std::string::npos);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/test_folder.h"
+#include "core/text.h"
 
 namespace sconce::test {
 
@@ -19,19 +20,13 @@ struct Outcome {
   std::string out, err;
 };
 
-inline std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 /// `PROGRAM ARGS...`. @param prefix  shell text before it, e.g. "ulimit -f 10;"
 inline Outcome run_program(const std::string& program, const std::vector<std::string>& args,
                            const std::string& prefix = {}) {
   const TemporaryFolder folder;
-  std::string command = prefix + " " + shell_quoted(program);
-  for (const std::string& arg : args) command += " " + shell_quoted(arg);
-  command += " >" + shell_quoted((folder / "out").string()) + " 2>" + shell_quoted((folder / "err").string());
+  std::string command = prefix + " " + shell_word(program);
+  for (const std::string& arg : args) command += " " + shell_word(arg);
+  command += " >" + shell_word((folder / "out").string()) + " 2>" + shell_word((folder / "err").string());
   const int status = std::system(command.c_str());
   Outcome outcome;
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -42,7 +37,7 @@ inline Outcome run_program(const std::string& program, const std::vector<std::st
 
 /// The prefix that gives a program a display of its own. @param size  e.g. "900x560"
 inline std::string with_display(const std::string& size, int seconds) {
-  return shell_quoted(SCONCE_SOURCE_DIR "/tests/with_display.sh") + " " + size + " timeout " +
+  return shell_word(SCONCE_SOURCE_DIR "/tests/with_display.sh") + " " + size + " timeout " +
          std::to_string(seconds);
 }
 

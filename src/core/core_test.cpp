@@ -110,5 +110,12 @@ TEST(Footprint, SamplesPiecesByArea) {
   EXPECT_NEAR(mean.y, (1 / 3.0 + 6) / 7, 0.02);
 }
 
+TEST(Text, AShellReadsWordsBack) {
+  EXPECT_EQ(shell_word("out/a-b_1.png"), "out/a-b_1.png");
+  EXPECT_EQ(shell_word("two words"), "'two words'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
 }  // namespace
 }  // namespace sconce

@@ -31,4 +31,7 @@ std::string lower(std::string_view s);
 /// apart.
 std::string safe_file_name(std::string_view name);
 
+/// As a shell reads it back: as it is where that is safe, else in '...'.
+std::string shell_word(std::string_view text);
+
 }  // namespace sconce
