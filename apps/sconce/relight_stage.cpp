@@ -19,10 +19,8 @@ namespace {
 
 class CpuRelightStage : public RelightStage {
  public:
-  explicit CpuRelightStage(const RelightJob& job)
-      : view_(job.view),
-        relighter_(job.package, job.view, job.op, job.bounces ? *job.bounces : FoldedBounces(job.op),
-                   job.lamps) {}
+  CpuRelightStage(const RelightJob& job, const FoldedBounces& bounces)
+      : view_(job.view), relighter_(job.package, job.view, job.op, bounces, job.lamps) {}
   std::string device() const override { return "cpu"; }
   Relighter::Seconds seconds() const override { return relighter_.seconds(); }
   void add_to(std::vector<Image>& pages) const override { relighter_.add_to(pages); }
@@ -135,7 +133,8 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
       if (device.name == "gl" || !job.shaders.empty()) throw;
     }
   }
-  return std::make_unique<CpuRelightStage>(job);
+  const auto bounces = job.bounces ? job.bounces : std::make_shared<const FoldedBounces>(job.op);
+  return std::make_unique<CpuRelightStage>(job, *bounces);
 }
 
 }  // namespace sconce::app

@@ -55,10 +55,9 @@ void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered
   const bool moved = mover != nullptr && mover->any();
   on_device_ = atlas_ != nullptr && !moved;
   if (!on_device_ || metered) {
-    const std::vector<Image>& layers = mixer_.mix(moved ? mover->layers_mix(mix) : mix);
     std::vector<Image> relit_pages;
-    if (moved) mover->add_to(mix, relit_pages = layers);
-    const std::vector<Image>& pages = moved ? relit_pages : layers;
+    if (moved) relit_pages = mover->pages(mixer_, mix);
+    const std::vector<Image>& pages = moved ? relit_pages : mixer_.mix(mix);
     if (metered) metering_ = opened_->meter(mix, pages);
     fader_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     if (!on_device_ && pages_ == nullptr)

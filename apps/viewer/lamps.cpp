@@ -27,9 +27,13 @@ ImU32 color_of(Grip grip) {
 
 }  // namespace
 
-void Viewer::prepare_lamps() {
+void Viewer::forget_lamps() {
   refining_.stop(), preparing_.stop();
   state_.lamps = {};
+}
+
+void Viewer::prepare_lamps() {
+  forget_lamps();
   if (!std::filesystem::exists(operator_path(state_.package, ""))) return;
   preparing_.start([opened = state_.opened](const Progress& progress, const auto& publish) {
     publish(std::make_shared<const Movable>(opened, progress));
@@ -72,11 +76,15 @@ Lens Viewer::lens() const {
                               .height = std::max(static_cast<int>(state_.canvas_size.y), 1)});
 }
 
-std::optional<ImVec2> Viewer::handle_at(const Vec3& lamp, Grip grip) const {
-  const Lens from = lens();
-  const auto at = project(from, Gizmo::of(from, lamp, px(kArrow)).tip(grip));
+std::optional<ImVec2> Viewer::on_screen(const Lens& from, const Vec3& point) const {
+  const auto at = project(from, point);
   if (!at) return std::nullopt;
   return ImVec2(state_.canvas_at.x + at->x, state_.canvas_at.y + at->y);
+}
+
+std::optional<ImVec2> Viewer::handle_at(const Vec3& lamp, Grip grip) const {
+  const Lens from = lens();
+  return on_screen(from, Gizmo::of(from, lamp, px(kArrow)).tip(grip));
 }
 
 bool Viewer::hold_lamp(Vec2 at) {
@@ -115,33 +123,28 @@ void Viewer::lamp_overlay() {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const Lens from = lens();
   const MovedPlaces& moved = state_.session->mood().moved;
-  const auto on_screen = [&](const Vec3& point) -> std::optional<ImVec2> {
-    const auto p = project(from, point);
-    if (!p) return std::nullopt;
-    return ImVec2(state_.canvas_at.x + p->x, state_.canvas_at.y + p->y);
-  };
   for (std::size_t i = 0; i < lamps.mover->movable().lamps.size(); ++i) {
     const auto place = lamps.mover->place(i, moved);
-    const auto spot = place ? on_screen(*place) : std::nullopt;
+    const auto spot = place ? on_screen(from, *place) : std::nullopt;
     if (!spot) continue;
     draw.AddCircle(*spot, px(6), IM_COL32(0, 0, 0, 160), 24, px(3));
     draw.AddCircle(*spot, px(6), moved.contains(i) ? palette::kAccent : palette::kText, 24, px(1.5f));
   }
   if (!lamps.chosen) return;
   const auto place = lamps.mover->place(*lamps.chosen, moved);
-  const auto middle = place ? on_screen(*place) : std::nullopt;
+  const auto middle = place ? on_screen(from, *place) : std::nullopt;
   if (!middle) return;
   const Gizmo gizmo = Gizmo::of(from, *place, px(kArrow));
   std::vector<ImVec2> square;
   for (const Vec3& corner : gizmo.square())
-    if (const auto p = on_screen(corner)) square.push_back(*p);
+    if (const auto p = on_screen(from, corner)) square.push_back(*p);
   const auto lit = [&](Grip grip) { return lamps.grip == grip ? palette::kText : color_of(grip); };
   if (square.size() == 4) {
     draw.AddConvexPolyFilled(square.data(), 4, faded(lit(Grip::floor), 0.35f));
     draw.AddPolyline(square.data(), 4, lit(Grip::floor), ImDrawFlags_Closed, px(1.5f));
   }
   for (const Grip grip : {Grip::x, Grip::y, Grip::z}) {
-    const auto tip = on_screen(gizmo.tip(grip));
+    const auto tip = on_screen(from, gizmo.tip(grip));
     if (!tip) continue;
     draw.AddLine(*middle, *tip, IM_COL32(0, 0, 0, 140), px(5));
     draw.AddLine(*middle, *tip, lit(grip), px(2.5f));

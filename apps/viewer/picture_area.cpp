@@ -121,11 +121,7 @@ void Viewer::overlays() {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = state_.canvas_at, size = state_.canvas_size;
   const MixSpec mix = state_.session->mix();
-  const auto project = [&, from = lens()](const Vec3& point) -> std::optional<ImVec2> {
-    const auto p = sconce::project(from, point);
-    if (!p) return std::nullopt;
-    return ImVec2(at.x + p->x, at.y + p->y);
-  };
+  const Lens from = lens();
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
 
   const Plane& plane = state_.plane;
@@ -137,7 +133,7 @@ void Viewer::overlays() {
     std::size_t i = 0;
     for (int row = 0; row < plane.grid.rows; ++row)
       for (int column = 0; column < plane.grid.columns; ++column, ++i) {
-        const auto spot = project(plane.grid.point(column, row));
+        const auto spot = on_screen(from, plane.grid.point(column, row));
         if (!spot || dark[i] != 0) continue;
         const Rgb c = false_color(scale.place(lux[i]));
         const auto byte = [](float v) { return static_cast<int>(255 * v + 0.5f); };
@@ -150,7 +146,7 @@ void Viewer::overlays() {
       }
   }
   for (std::size_t i = 0; i < state_.goals.size(); ++i) {
-    const auto spot = project(state_.goals[i].position);
+    const auto spot = on_screen(from, state_.goals[i].position);
     if (!spot) continue;
     draw.AddCircle(*spot, px(9), palette::kAccent, 24, px(2));
     text(draw, fonts().small, {spot->x + px(13), spot->y - px(8)}, palette::kAccent,

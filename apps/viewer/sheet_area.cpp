@@ -10,7 +10,6 @@
 namespace sconce::viewer {
 
 void Viewer::draw_sheet(ImVec2 at, ImVec2 size) {
-  state_.canvas_at = at, state_.canvas_size = size;
   begin_picture(at, size);
   const bool hovered = ImGui::IsItemHovered();
   const ImGuiIO& io = ImGui::GetIO();

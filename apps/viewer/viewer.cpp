@@ -163,8 +163,8 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
 }
 
 void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
-  measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop();
-  state_.lamps = {};
+  measuring_.stop(), tracing_.stop();
+  forget_lamps();
   reference_.reset(), traced_.reset();
   for (const std::string& name : opened->picture.picture.left_out)
     note("'" + name + "' is left out: only flat, full channels are kept");
@@ -307,11 +307,9 @@ Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
   if (state_.sheet) return meter_picture(Mixer(state_.sheet->opened().layers).mix(mix).front());
   const LampMover* mover = state_.lamps.mover.get();
-  if (mover == nullptr || !mover->any())
-    return state_.opened->meter(mix, Mixer(state_.opened->layers).mix(mix));
-  std::vector<Image> pages = Mixer(state_.opened->layers).mix(mover->layers_mix(mix));
-  mover->add_to(mix, pages);
-  return state_.opened->meter(mix, pages);
+  Mixer mixer(state_.opened->layers);
+  if (mover != nullptr && mover->any()) return state_.opened->meter(mix, mover->pages(mixer, mix));
+  return state_.opened->meter(mix, mixer.mix(mix));
 }
 
 void Viewer::note(const std::string& line) {

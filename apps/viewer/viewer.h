@@ -121,6 +121,7 @@ class Viewer {
   void keys();
   void set_look(LookKind look);
   void measure();
+  void forget_lamps();
   void prepare_lamps();
   void light_lamps();
   /// @param gesture  further moves of the same lamp are the same step of undo
@@ -130,6 +131,7 @@ class Viewer {
   bool hold_lamp(Vec2 at);
   Lens lens() const;
   /// In the window, pixels; none out of sight.
+  std::optional<ImVec2> on_screen(const Lens& from, const Vec3& point) const;
   std::optional<ImVec2> handle_at(const Vec3& lamp, Grip grip) const;
   void lamp_overlay();
   void add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux);

@@ -47,13 +47,18 @@ std::vector<Rgb> direct_over_texels(const Operator& op, const RelightReceivers& 
   return light;
 }
 
+std::vector<Rgb> with_indirect(std::vector<Rgb> direct, const Package& package, const View& view,
+                               const Operator& op, const FoldedBounces& bounces, const MovedLamps& lamps) {
+  const Relighter indirect(package, view, op, bounces, lamps);
+  for (std::size_t i = 0; i < direct.size(); ++i) direct[i] += indirect.indirect()[i];
+  return direct;
+}
+
 std::vector<Rgb> lightmap_share(const Package& package, const View& view, const Operator& op,
                                 const FoldedBounces& bounces, const MovedLamps& lamps,
                                 const Progress& progress) {
-  std::vector<Rgb> share = direct_over_texels(op, texel_receivers(package, view, progress), lamps, progress);
-  const Relighter indirect(package, view, op, bounces, lamps);
-  for (std::size_t i = 0; i < share.size(); ++i) share[i] += indirect.indirect()[i];
-  return share;
+  return with_indirect(direct_over_texels(op, texel_receivers(package, view, progress), lamps, progress),
+                       package, view, op, bounces, lamps);
 }
 
 void take_share(const Atlas& atlas, const Operator& op, std::span<const Rgb> share,

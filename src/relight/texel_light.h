@@ -15,6 +15,10 @@ std::vector<Rgb> direct_at_middles(const Operator& op, const MovedLamps& lamps);
 std::vector<Rgb> direct_over_texels(const Operator& op, const RelightReceivers& texels,
                                     const MovedLamps& lamps, const Progress& progress = {});
 
+/// The lamps' direct light and, by the operator, their indirect light. Per receiver, lux.
+std::vector<Rgb> with_indirect(std::vector<Rgb> direct, const Package& package, const View& view,
+                               const Operator& op, const FoldedBounces& bounces, const MovedLamps& lamps);
+
 /// What layers hold of lamps that stand in them: direct light over texels, by shadow rays, and indirect light
 /// by the operator. Per receiver, lux.
 /// @param lamps  where they were baked, with the weights of their groups

@@ -29,11 +29,8 @@ MovedLamps Movable::alone(std::size_t lamp, const std::optional<Vec3>& at) const
 }
 
 std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
-  std::vector<Rgb> light =
-      fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp);
-  const Relighter indirect(opened->package, opened->rays, op, bounces, lamp);
-  for (std::size_t i = 0; i < light.size(); ++i) light[i] += indirect.indirect()[i];
-  return light;
+  return with_indirect(fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp),
+                       opened->package, opened->rays, op, bounces, lamp);
 }
 
 std::vector<std::size_t> LampMover::find(const std::string& name, const std::string& where) const {
@@ -82,16 +79,10 @@ std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {
   return take_lamps(movable_->lamps, {}, moves, false, mix);
 }
 
-MixSpec LampMover::layers_mix(const MixSpec& mix) const {
-  MixSpec left = mix;
-  taken(left);
-  return left;
-}
-
-void LampMover::add_to(const MixSpec& mix, std::vector<Image>& pages) const {
-  MixSpec left = mix;
+std::vector<Image> LampMover::pages(Mixer& mixer, const MixSpec& mix) const {
+  MixSpec layers = mix;
   std::vector<Rgb> leaves(movable_->op.places.size());
-  const std::vector<MovedGroup> groups = taken(left), parts = in_part(groups);
+  const std::vector<MovedGroup> groups = taken(layers), parts = in_part(groups);
   for (const auto& [lamp, entry] : moved_) {
     const Id<LightGroup> group = movable_->lamps.all()[lamp].group;
     const Rgb weight = mix.weights[group.value];
@@ -102,7 +93,9 @@ void LampMover::add_to(const MixSpec& mix, std::vector<Image>& pages) const {
       if (stays) leaves[i] += weight * entry.before.light[i];
     }
   }
+  std::vector<Image> pages = mixer.mix(layers);
   take_share(movable_->atlas, movable_->op, leaves, pages);
+  return pages;
 }
 
 std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved) {

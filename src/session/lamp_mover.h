@@ -3,6 +3,7 @@
 // light on texels, so that every look, exposure and camera follows.
 #pragma once
 
+#include "mix/mixer.h"
 #include "relight/texel_light.h"
 #include "session/opened.h"
 #include "session/session.h"
@@ -64,10 +65,9 @@ class LampMover {
   /// Counts changes of light.
   uint64_t version() const { return version_; }
 
-  /// What layers show, without groups that went as a whole.
-  MixSpec layers_mix(const MixSpec& mix) const;
-  /// Moved lamps come, and leave layers that stay. @param pages  of layers_mix()
-  void add_to(const MixSpec& mix, std::vector<Image>& pages) const;
+  /// The mixed lightmap with moved lamps where they are: they leave layers that stay, and groups that went as
+  /// a whole leave the mix.
+  std::vector<Image> pages(Mixer& mixer, const MixSpec& mix) const;
 
  private:
   struct Lit {
