@@ -58,7 +58,6 @@ int run_export(int argc, const char* const* argv) {
       "export",
       "A package as a web page with faders: a folder that any web server can host, without code on "
       "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed.",
-
       {"sconce export kitchen.sconce ceiling=0.3 --scene relit.glb",
        "sconce export kitchen.sconce --web site --preset evening.toml",
        "python3 -m http.server -d {FOLDER}"});

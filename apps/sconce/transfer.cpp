@@ -8,11 +8,19 @@
 #include "app.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/text.h"
 #include "transfer_job.h"
 
 namespace sconce::app {
 
 namespace {
+
+std::string given_options(const Options& options) {
+  std::string text;
+  for (const auto& [name, value] : options.provenance())
+    if (value.source != "default") text += name + "=" + value.value + " ";
+  return trim(text);
+}
 
 /// @return exit code when nothing is left to do
 std::optional<int> read_job(int argc, const char* const* argv, Options& options, TransferJob& job) {

@@ -7,7 +7,6 @@
 
 #include "bake_job.h"
 #include "checkpoint.h"
-#include "core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -25,13 +24,6 @@ std::string key_of(const TransferParams& p, const RelightReceivers& receivers) {
 }
 
 }  // namespace
-
-std::string given_options(const Options& options) {
-  std::string text;
-  for (const auto& [name, value] : options.provenance())
-    if (value.source != "default") text += name + "=" + value.value + " ";
-  return trim(text);
-}
 
 MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, const Progress& progress) {
   const Ranks ranks = session.ranks();

@@ -21,10 +21,8 @@ struct MadeOperator {
   Operator op;
   std::filesystem::path path;
 };
+
 /// Makes the operator, all ranks together, and writes it. @throws Error, UsageError; Cancelled
 MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, const Progress& progress);
-
-/// What was given of options that are not at their defaults.
-std::string given_options(const Options& options);
 
 }  // namespace sconce::app
