@@ -11,10 +11,10 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build web test bench validate docs format tidy setup
+.PHONY: help demo build web test bench validate robustness docs format tidy setup
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## install the Debian packages that are missing (packages.txt)
 	@tools/setup.sh lean
@@ -47,6 +47,13 @@ bench: setup ## run the benchmarks: bench/results/
 validate: setup $(BUILD)/build.ninja ## compute docs/validation.md
 	ninja -C $(BUILD) validation
 	$(BUILD)/tests/validation $(or $(SCONCE_TEST_DATA),../shared/data) docs/validation.md
+
+# Once as it is built for use, once with sanitizers.
+robustness: build ## broken files of other people's test suites: docs/robustness.md
+	cmake --preset dev -B build/dev -DCMAKE_CXX_COMPILER=$(CXX)
+	ninja -C build/dev sconce
+	ninja -C $(BUILD) robustness
+	$(BUILD)/tests/robustness $(or $(SCONCE_TEST_DATA),../shared/data) docs/robustness.md $(BUILD)/sconce build/dev/sconce
 
 docs: build ## write docs/cli.md, out of every verb's --help
 	$(BUILD)/sconce help --markdown > docs/cli.md.new && mv docs/cli.md.new docs/cli.md

@@ -78,18 +78,22 @@ InfoReport scene_info(const std::filesystem::path& path, const std::string& grou
   };
   Scene scene = import_scene(path, noting);
   assign_groups(scene, grouping);
-  const World world = make_world(scene);
+  World world;
+  if (instanced_triangles(scene) > 0)
+    world = make_world(scene);
+  else
+    noting.warn(path.string() + ": the scene has no triangles, so there is nothing to bake");
 
   InfoReport report;
-  const Vec3 size = world.bounds.hi - world.bounds.lo;
+  const Bounds& box = world.bounds;
   report.json = {{"kind", "scene"},
                  {"file", path.string()},
                  {"meshes", scene.meshes.size()},
                  {"instances", scene.instances.size()},
                  {"triangles", instanced_triangles(scene)},
                  {"materials", scene.materials.size()},
-                 {"textures", scene.textures.size()},
-                 {"bounds", {{"min", json_of(world.bounds.lo)}, {"max", json_of(world.bounds.hi)}}}};
+                 {"textures", scene.textures.size()}};
+  if (!box.empty()) report.json["bounds"] = {{"min", json_of(box.lo)}, {"max", json_of(box.hi)}};
   const auto mapped = std::count_if(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return m.normal_texture.texture.valid(); });
   report.json["normal_maps"] = mapped;
@@ -101,8 +105,10 @@ InfoReport scene_info(const std::filesystem::path& path, const std::string& grou
       fmt::format("surfaces      {} materials, {} textures\n", scene.materials.size(), scene.textures.size());
   if (mapped > 0)
     report.text += fmt::format("normal maps   of {} materials; `bake --basis sh1` makes them seen\n", mapped);
-  report.text += fmt::format("size          {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f})\n",
-                             size.x, size.y, size.z, world.bounds.lo.x, world.bounds.lo.y, world.bounds.lo.z);
+  if (!box.empty())
+    report.text += fmt::format("size          {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f})\n",
+                               box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z, box.lo.x,
+                               box.lo.y, box.lo.z);
   add_cameras(scene, report);
   add_groups(scene, world, report);
   if (options) add_options(path, report);

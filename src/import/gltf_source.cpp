@@ -189,11 +189,24 @@ void check_primitive(const json& primitive, const std::string& place) {
     if (!accessor.is_number_integer()) throw Error(place + "." + name, "is no accessor index");
 }
 
+/// tinygltf refuses the whole file for a type that it does not know, which glTF leaves to extensions. MAT2 is
+/// as good: nothing that is read is one.
+void replace_unknown_types(json& root) {
+  if (!root.contains("accessors") || !root.at("accessors").is_array()) return;
+  for (json& accessor : root.at("accessors")) {
+    if (!accessor.is_object() || !accessor.contains("type") || !accessor.at("type").is_string()) continue;
+    const auto type = accessor.at("type").get<std::string>();
+    static constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    if (std::find(std::begin(kTypes), std::end(kTypes), type) == std::end(kTypes)) accessor["type"] = "MAT2";
+  }
+}
+
 /// Leaves to tinygltf what it reads safely and what is of use: no pictures, animations, skins or morph
 /// targets.
 std::vector<KeptIndices> simplify(json& root, const std::vector<Bytes>& buffers, const std::string& where) {
   std::vector<KeptIndices> kept;
   for (const char* key : {"images", "animations", "skins"}) root.erase(key);
+  replace_unknown_types(root);
   json none = json::array();
   json& meshes = root.contains("meshes") ? root.at("meshes") : none;
   if (!meshes.is_array()) throw Error(where, "meshes is no array");

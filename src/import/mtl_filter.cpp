@@ -16,12 +16,16 @@ namespace sconce {
 
 namespace {
 
-bool kept(const std::string& line) {
+/// @param inside  of a material
+bool kept(const std::string& line, bool& inside) {
   std::istringstream words(line);
   std::string keyword, word;
   words >> keyword;
   keyword = lower(keyword);
-  if (keyword == "newmtl" || keyword == "map_kd" || keyword == "map_ke" || keyword == "map_d") return true;
+  const bool begins = keyword == "newmtl" && words >> word;
+  inside |= begins;
+  if (!inside) return false;  // assimp writes into the material that is not there
+  if (begins || keyword == "map_kd" || keyword == "map_ke" || keyword == "map_d") return true;
   const bool color = keyword == "kd" || keyword == "ke";
   if (!color && keyword != "d" && keyword != "tr") return false;
   int numbers = 0;
@@ -34,11 +38,14 @@ bool kept(const std::string& line) {
 
 }  // namespace
 
-std::string filtered_mtl(const std::string& text) {
+std::string filtered_mtl(std::string text) {
+  for (char& c : text)
+    if (c == '\r' || c == '\0') c = '\n';  // lines end there for assimp
   std::string out;
   std::istringstream lines(text);
+  bool inside = false;
   for (std::string line; std::getline(lines, line);)
-    if (kept(line)) out += trim(line) + "\n";
+    if (kept(line, inside)) out += trim(line) + "\n";
   return out;
 }
 

@@ -15,6 +15,6 @@ class MtlFilter : public Assimp::DefaultIOSystem {
 };
 
 /// The lines of an MTL text that are kept.
-std::string filtered_mtl(const std::string& text);
+std::string filtered_mtl(std::string text);
 
 }  // namespace sconce

@@ -56,6 +56,15 @@ TEST(Obj, MissingMaterialFileIsNamed) {
   EXPECT_THROW(import_scene(folder.write("empty.obj", "")), Error);
 }
 
+// assimp would follow a null pointer there.
+TEST(Obj, PropertiesBeforeTheFirstMaterialAreLeftOut) {
+  const TemporaryFolder folder;
+  folder.write("x.mtl", "# a\rKd 1 0 0\nmap_Kd x.png\nnewmtl\nd 1\nnewmtl a\r\nKd 0.5 0.25 0\n");
+  const Scene scene =
+      import_scene(folder.write("x.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"));
+  EXPECT_EQ(scene[scene.meshes.at(0).material].base_color, Rgb(0.5f, 0.25f, 0));
+}
+
 TEST(Obj, CornellBoxOfMcGuire) {
   const auto path = test_data() / "scenes/cornell-mcguire/CornellBox-Original.obj";
   SCONCE_NEEDS_DATA(path);

@@ -136,7 +136,6 @@ class Validator {
   }
 
   void check_instances() {
-    std::size_t triangles = 0;
     std::erase_if(scene_.instances, [&](Instance& instance) {
       const std::string what = "instance " + quoted(instance.name);
       check_id(instance.mesh, scene_.meshes.size(), scene_.name + ": " + what + ": mesh");
@@ -145,10 +144,8 @@ class Validator {
         return true;
       }
       if (!(instance.lightmap_scale > 0) || !finite(instance.lightmap_scale)) instance.lightmap_scale = 1;
-      triangles += scene_[instance.mesh].triangles.size();
       return false;
     });
-    if (triangles == 0) throw Error(scene_.name, "the scene has no triangles");
   }
 
   void check_texcoords() {
@@ -217,6 +214,7 @@ class Validator {
         bounds.add(Vec3(instance.transform * glm::vec4(p, 1)));
       }
     }
+    if (bounds.empty()) return;
     const float size = bounds.diagonal();
     if (size < kSmallScene || size > kLargeScene)
       warn("the scene is " + std::to_string(size) + " m across; is its unit the metre?");

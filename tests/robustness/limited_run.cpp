@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limited_run.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/files.h"
+#include "core/mapped_file.h"
+#include "core/program.h"
+#include "core/scratch_folder.h"
+#include "core/text.h"
+
+namespace fs = std::filesystem;
+
+namespace sconce::robustness {
+
+namespace {
+
+std::vector<std::string> command(const Program& program, std::vector<std::string> words) {
+  const std::string bytes = std::to_string(int64_t{kGigabytes} << 30);
+  const std::string megabytes = std::to_string(kGigabytes << 10);
+  std::vector<std::string> out;
+  // The shadow of the address sanitizer is address space, but no memory.
+  if (program.sanitized)
+    out = {"env", "ASAN_OPTIONS=detect_stack_use_after_return=1:hard_rss_limit_mb=" + megabytes};
+  else
+    out = {"prlimit", "--as=" + bytes};
+  for (const std::string& word :
+       {std::string("timeout"), std::string("--signal=KILL"), std::to_string(kSeconds), program.path})
+    out.push_back(word);
+  out.insert(out.end(), words.begin(), words.end());
+  return out;
+}
+
+Run judge(int code, const std::string& said, const std::string& verb, const fs::path& file) {
+  const auto has = [&](std::string_view text) { return said.find(text) != std::string::npos; };
+  const std::string head = "sconce " + verb + ": ";
+  std::vector<std::string> lines = split(said, '\n');
+  std::erase_if(lines, [&](const std::string& line) { return !line.starts_with(head); });
+  const std::string line = lines.empty() ? std::string() : lines.front().substr(head.size());
+  if (has("Sanitizer") || has("runtime error: ")) return {End::finding, "sanitizer: " + trim(said)};
+  if (code == 137) return {End::finding, "did not end in " + std::to_string(kSeconds) + " s"};
+  if (code == 0) return {End::done, {}};
+  if (code != 1 && code != 2) return {End::finding, "ended with code " + std::to_string(code)};
+  if (has("out of memory")) return {End::finding, line};
+  if (lines.size() != 1 || has("unexpected failure") || line.find(file.stem().string()) == std::string::npos)
+    return {End::finding, "no clear line: " + trim(said)};
+  return {End::refused, line};
+}
+
+}  // namespace
+
+Program program_at(const std::string& path) {
+  const MappedFile file(path);
+  return {path, file.bytes().find("__asan_init") != std::string_view::npos};
+}
+
+Run run_limited(const Program& program, std::vector<std::string> words, const fs::path& file) {
+  using Clock = std::chrono::steady_clock;
+  const ScratchFolder folder;
+  const std::string verb = words.front();
+  words.insert(words.end(), {"--quiet", "--threads", "1"});
+  const auto start = Clock::now();
+  const int code =
+      run_program(command(program, std::move(words)), folder.path() / "out", folder.path() / "err", {});
+  Run run = judge(code, read_file(folder.path() / "err"), verb, file);
+  run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return run;
+}
+
+double most_megabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+}  // namespace sconce::robustness
