@@ -23,10 +23,13 @@ class ViewTest : public testing::Test {
                           path("x.sconce"), "--atlas", "256", "--samples", "8", "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
-  test::Outcome view(const std::string& script, const std::string& input = "x.sconce") {
+  test::Outcome view(const std::string& script, const std::string& input = "x.sconce",
+                     const std::vector<std::string>& options = {}) {
     folder_.write("script.txt", script);
-    return test::run_sconce({"view", path(input), "--script", path("script.txt"), "--size", "900x560"},
-                            test::with_display("900x560", 100));
+    std::vector<std::string> arguments{"view",   path(input), "--script", path("script.txt"),
+                                       "--size", "900x560"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return test::run_sconce(arguments, test::with_display("900x560", 100));
   }
   Image8 png(const std::string& name) const {
     const std::string bytes = read_file(path(name));
@@ -62,6 +65,41 @@ TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
   EXPECT_LE(mean_difference(shown, png("cpu.png")), 2);
   EXPECT_GT(mean_difference(shown, png("lux.png")), 20);
   EXPECT_EQ(png("all.png").width, 900);
+}
+
+// OpenGL draws the mirror black; at rest rays show in it what `render` does, and it follows the faders.
+TEST_F(ViewTest, MirrorsAreFollowedAtRest) {
+  Scene room = test::two_lamp_room();
+  Material& mirror = room.materials.emplace_back(room.materials[0]);
+  mirror.name = "mirror", mirror.base_color = Rgb(0.9f), mirror.metallic = 1, mirror.roughness = 0;
+  room.meshes[room.instances[2].mesh.value].material =
+      Id<Material>(static_cast<uint32_t>(room.materials.size() - 1));
+  folder_.write("x.glb", write_glb(room, "test"));
+  const auto baked = test::run_sconce(
+      {"bake", path("x.glb"), "-o", path("x.sconce"), "--atlas", "128", "--samples", "8", "--quiet"});
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  const std::string script = "ev100 2\nsettle\npicture " + path("on.png") +
+                             "\nset left=off\nsettle\npicture " + path("left-off.png") + "\n";
+  ASSERT_EQ(view(script).code, 0);
+  const Image8 on = png("on.png"), off = png("left-off.png");
+  ASSERT_EQ(
+      view("ev100 2\nsettle\npicture " + path("none.png") + "\n", "x.sconce", {"--no-reflections"}).code, 0);
+  const auto rendered = [&](std::vector<std::string> arguments) {
+    std::vector<std::string> all{"render",   path("x.sconce"),
+                                 "--ev100",  "2",
+                                 "--device", "cpu",
+                                 "--size",   std::to_string(on.width) + "x" + std::to_string(on.height),
+                                 "-o",       path("cpu.png")};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto outcome = test::run_sconce(all);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return png("cpu.png");
+  };
+  EXPECT_LE(mean_difference(on, rendered({})), 1);
+  EXPECT_LE(mean_difference(off, rendered({"left=off"})), 1);
+  const Image8 without = rendered({"--no-reflections"});
+  EXPECT_LE(mean_difference(png("none.png"), without), 2);
+  EXPECT_GT(mean_difference(on, without), 10);
 }
 
 TEST_F(ViewTest, HandsMoveFadersAndKeysTakeThemBack) {

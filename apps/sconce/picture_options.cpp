@@ -7,13 +7,14 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "picture/gloss.h"
 #include "shader/composer.h"
 
 namespace sconce::app {
 
 namespace {
 
-constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16, kReflections = 2;
+constexpr int kMaxSide = 16384, kDefaultWidth = 1280, kMaxSamples = 1 << 16;
 
 int parse_side(const std::string& text, const std::string& whole) {
   const std::optional<double> value = parse_number(text);

@@ -13,7 +13,7 @@ namespace sconce::app {
 
 int run_view(int argc, const char* const* argv) {
   std::string input, script, size, groups_from;
-  bool forget = false;
+  bool forget = false, no_reflections = false;
   Options options("view",
                   "A window on a package: its light groups on faders, the picture following; on a scene, "
                   "which is baked while you look; or on another renderer's picture with light groups.",
@@ -26,12 +26,16 @@ int run_view(int argc, const char* const* argv) {
   options.option("--script", &script,
                  "does what this file says, line by line, then closes; see docs/window.md");
   options.option("--size", &size, "WIDTHxHEIGHT of the window (default: as the last time)");
+  options.flag(
+      "--no-reflections", &no_reflections,
+      "mirrors, metals and glossy surfaces show nothing of what they mirror, even while nothing moves");
   options.flag("--forget", &forget, "neither reads nor keeps sizes and recent files");
   if (const auto code = options.parse(argc, argv)) return *code;
 
   viewer::ViewRequest request;
   request.file = input;
   request.groups_from = groups_from;
+  request.reflections = !no_reflections;
   request.forget = forget || !script.empty();
   if (!script.empty()) request.script = parse_script(read_file(script), script);
   if (!size.empty()) {

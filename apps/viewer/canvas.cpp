@@ -33,6 +33,14 @@ gpu::Look gpu_look(LookKind look) {
   }
 }
 
+std::unique_ptr<gpu::Texture> picture_texture(const gpu::Context& context, const Image& rgb,
+                                              const char* name) {
+  auto texture = std::make_unique<gpu::Texture>(
+      context, gpu::TextureParams{.format = GL_RGB32F, .width = rgb.width, .height = rgb.height}, name);
+  texture->upload(GL_RGB, GL_FLOAT, rgb.data.data());
+  return texture;
+}
+
 }  // namespace
 
 Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened)
@@ -88,6 +96,7 @@ bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMove
   if (!same(scenery, drawn_)) samples_ = 0;
   const bool redisplay =
       samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);
+  if (samples_ == 0) at_rest_.reset(), ++version_;
   if (samples_ < kSamples) {
     const Manifest& m = opened_->package.manifest();
     view_.draw(scenery.camera, mix_.weights, light(scenery.look),
@@ -105,10 +114,12 @@ bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMove
 
 void Canvas::display(const Session& session, const Scenery& scenery) {
   const ToneMapper& curve = find_tone_mapper(session.mood().tone);
+  const gpu::Texture& sum = at_rest_ ? *at_rest_ : view_.sum();
+  const int samples = at_rest_ ? 1 : view_.samples();
   if (!row_of(scenery.look).unit.empty()) {
-    display_.false_color(view_.sum(), view_.samples(), 1, scenery.scale);
+    display_.false_color(sum, samples, 1, scenery.scale);
   } else if (scenery.look == LookKind::picture || scenery.look == LookKind::reference) {
-    display_.tone(view_.sum(), view_.samples(), session.exposure(metering_), curve);
+    display_.tone(sum, samples, session.exposure(metering_), curve);
   } else if (scenery.look == LookKind::lightmap) {
     Exposure exposure = session.exposure(metering_);
     exposure.scale *= kInvPi;
@@ -118,11 +129,17 @@ void Canvas::display(const Session& session, const Scenery& scenery) {
   }
 }
 
+void Canvas::set_at_rest(const Image& linear, const Session& session) {
+  at_rest_ = picture_texture(*context_, linear, "picture at rest");
+  display(session, drawn_);
+}
+
+std::vector<Image> Canvas::mixed_pages(const LampMover* mover) {
+  return mover != nullptr && mover->any() ? mover->pages(mixer_, mix_) : mixer_.mix(mix_);
+}
+
 void Canvas::set_reference(const Image& linear, const Session& session) {
-  reference_sum_ = std::make_unique<gpu::Texture>(
-      *context_, gpu::TextureParams{.format = GL_RGB32F, .width = linear.width, .height = linear.height},
-      "reference");
-  reference_sum_->upload(GL_RGB, GL_FLOAT, linear.data.data());
+  reference_sum_ = picture_texture(*context_, linear, "reference");
   reference_display_.tone(*reference_sum_, 1, session.exposure(metering_),
                           find_tone_mapper(session.mood().tone));
 }

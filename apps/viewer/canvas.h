@@ -34,6 +34,14 @@ class Canvas : public Screen {
   void set_reference(const Image& linear, const Session& session);
   bool has_reference() const { return reference_sum_ != nullptr; }
   void forget_reference() { reference_sum_.reset(); }
+  /// The same picture by rays, with what mirrors show: stands instead of what was drawn until anything but
+  /// the exposure changes. @param linear  cd/m2
+  void set_at_rest(const Image& linear, const Session& session);
+  /// Counts the pictures that were begun anew.
+  uint64_t version() const { return version_; }
+  void draw_anew() { samples_ = 0; }
+  /// Of the mix that is drawn. @param mover  as in draw()
+  std::vector<Image> mixed_pages(const LampMover* mover);
 
   ImTextureID reference() const { return id_of(reference_display_.texture()); }
   Image linear() const override { return view_.linear(); }
@@ -53,13 +61,14 @@ class Canvas : public Screen {
   std::unique_ptr<gpu::MixedPages> noise_;
   MixSpec noise_mix_;
   gpu::DisplayPass reference_display_;
-  std::unique_ptr<gpu::Texture> reference_sum_;
+  std::unique_ptr<gpu::Texture> reference_sum_, at_rest_;
 
   bool on_device_ = false;
   uint64_t relit_ = 0;  ///< LampMover::version()
   Scenery drawn_;
   Mood shown_;
   int samples_ = 0;
+  uint64_t version_ = 0;
 };
 
 }  // namespace sconce::viewer

@@ -45,7 +45,7 @@ bool Driver::step() {
   if (settling_) {
     const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() ||
                         v.measuring_.running() || v.preparing_.running() || v.refining_.running() ||
-                        (v.state_.lamps.mover && v.state_.lamps.mover->rough());
+                        v.mirroring_.running() || (v.state_.lamps.mover && v.state_.lamps.mover->rough());
     if (moving) return true;
     settling_ = false;
   }

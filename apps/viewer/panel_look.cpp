@@ -90,6 +90,10 @@ void Viewer::look_panel() {
   }
 
   if (state_.sheet) return;
+  if (state_.opened->rays.scene().has_mirrors()) {
+    ImGui::Checkbox("reflections at rest", &state_.reflections);
+    tip("what mirrors, metals and glossy surfaces show, by rays, as soon as nothing moves");
+  }
   heading("Cameras");
   for (const Camera& camera : state_.opened->rays.scene().cameras)
     if (ImGui::Selectable((camera.name + "##camera").c_str(),

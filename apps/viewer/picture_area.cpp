@@ -43,6 +43,7 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
     drawing_more_ |=
         state_.canvas->draw(*state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()},
                             state_.lamps.mover.get());
+    follow_mirrors();
     if (state_.look == LookKind::reference && reference_ && traced_)
       state_.canvas->set_reference(reference_->picture(*traced_, state_.canvas->mix()), *state_.session);
   });

@@ -42,12 +42,14 @@ Viewer::Viewer(const ViewRequest& request)
       remembered_(start_with(request)),
       window_(remembered_.width, remembered_.height, "sconce"),
       script_(request.script) {
+  state_.reflections = request_.reflections;
   if (!script_.empty()) hands_.emplace();
   if (!request.file.empty()) open(request.file);
 }
 
 Viewer::~Viewer() {
-  baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop();
+  baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop(),
+      mirroring_.stop();
   std::error_code ignored;
   if (!own_folder_.empty()) fs::remove_all(own_folder_, ignored);
   if (request_.forget) return;
@@ -135,12 +137,13 @@ void Viewer::take_results() {
   if (state_.ready()) attempt([&] { light_lamps(); });
   for (const std::string& problem :
        {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem(),
-        preparing_.take_problem(), refining_.take_problem()})
+        preparing_.take_problem(), refining_.take_problem(), mirroring_.take_problem()})
     if (!problem.empty()) note(problem);
 }
 
 void Viewer::show(std::shared_ptr<const Opened> opened) {
-  measuring_.stop(), tracing_.stop();
+  measuring_.stop(), tracing_.stop(), mirroring_.stop();
+  mirrored_ = 0;
   reference_.reset(), traced_.reset();
   auto canvas = std::make_unique<Canvas>(window_.context(), opened);
   const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
@@ -163,7 +166,8 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
 }
 
 void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
-  measuring_.stop(), tracing_.stop();
+  measuring_.stop(), tracing_.stop(), mirroring_.stop();
+  mirrored_ = 0;
   forget_lamps();
   reference_.reset(), traced_.reset();
   for (const std::string& name : opened->picture.picture.left_out)
@@ -327,7 +331,7 @@ void Viewer::attempt(const std::function<void()>& work) {
 
 bool Viewer::busy() const {
   return opening_.running() || baking_.running() || measuring_.running() || tracing_.running() ||
-         preparing_.running() || refining_.running() || !state_.notes.empty();
+         preparing_.running() || refining_.running() || mirroring_.running() || !state_.notes.empty();
 }
 
 void show_window(const ViewRequest& request) {

@@ -28,6 +28,7 @@ struct ViewRequest {
   std::string groups_from;     ///< of pictures, see find_layers()
   std::vector<Action> script;  ///< then the window closes, unless it is empty
   int width = 0, height = 0;   ///< of the window; 0 = as it was the last time
+  bool reflections = true;     ///< are followed while nothing moves
   bool forget = false;         ///< neither reads nor writes what is remembered
   /// Bakes a scene into packages, coarse ones first; called beside the window. Each package published stands
   /// until the next is.
@@ -81,7 +82,7 @@ struct State {
   LookKind look = LookKind::picture;
   std::map<LookKind, FalseColor> scales;
   std::string search;
-  bool help = false, reading = true, panels = true, resizing = false;
+  bool reflections = true, help = false, reading = true, panels = true, resizing = false;
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
   MovingLamps lamps;
@@ -138,6 +139,8 @@ class Viewer {
   void seek();
   void seek_picture(const std::filesystem::path& file);
   void refine_reference();
+  /// What mirrors show, by rays, as soon as the picture rests.
+  void follow_mirrors();
   void screenshot();
   void save_preset();
   /// Keeps what was baked. @param target  empty = beside the scene
@@ -177,6 +180,8 @@ class Viewer {
   Background<MeasuredLight> measuring_, tracing_;
   Background<std::shared_ptr<const Movable>> preparing_;
   Background<LampMover::Fine> refining_;
+  Background<Image> mirroring_;
+  uint64_t mirrored_ = 0;  ///< Canvas::version() that rays were sent for
   std::optional<ReferencePicture> reference_;
   std::optional<MeasuredLight> traced_;
   bool drawing_more_ = false, want_shot_ = false;

@@ -17,6 +17,9 @@ struct Gloss {
   float diffuse = 1;  ///< what a dielectric's surface lets through
 };
 
+/// Reflections that pictures follow, one behind the other, unless asked not to.
+inline constexpr int kReflections = 2;
+
 /// Dielectrics (of 0.04 towards the normal) mirror up to Material::kGlossy, metals whatever their roughness.
 bool mirrors(const Shade& surface);
 
