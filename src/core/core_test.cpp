@@ -19,7 +19,8 @@ namespace {
 TEST(Text, NumbersAreWholeAndIgnoreTheLocale) {
   EXPECT_EQ(parse_number("+1.5"), 1.5);
   EXPECT_EQ(parse_number("-2e3"), -2000);
-  for (const char* wrong : {"", "1,5", "1.5x", " 1", "+"}) EXPECT_FALSE(parse_number(wrong)) << wrong;
+  for (const char* wrong : {"", "1,5", "1.5x", " 1", "+", "nan", "-inf", "1e999"})
+    EXPECT_FALSE(parse_number(wrong)) << wrong;
 }
 
 TEST(Text, Globs) {

@@ -9,7 +9,7 @@
 
 namespace sconce {
 
-/// The whole of `s` as a number, whatever the locale; nothing else may stand around it.
+/// The whole of `s` as a finite number, whatever the locale; nothing else may stand around it.
 std::optional<double> parse_number(std::string_view s);
 
 /// `*` and `?` globs.

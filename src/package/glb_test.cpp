@@ -212,6 +212,26 @@ TEST(Glb, MeshWithoutTrianglesIsNamed) {
   EXPECT_THROW(write_glb(scene, "test"), Error);
 }
 
+TEST(Glb, WhatIsNotFiniteIsNotWritten) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  Scene scene = sample();
+  scene.meshes[1].positions[0].z = kNaN;
+  EXPECT_THROW(write_glb(scene, "test"), Error);
+  scene = sample();
+  scene.meshes[0].texcoords.back()[1].y = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(write_glb(scene, "test"), Error);
+  scene = sample();
+  scene.materials[0].roughness = kNaN;  // JSON
+  try {
+    write_glb(scene, "test");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("materials/0/pbrMetallicRoughness/roughnessFactor"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 // Damage anywhere gives an Error or another scene, never a crash.
 TEST(Glb, DamageNeverCrashes) {
   const std::string bytes = write_glb(sample(), "test");

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/finite.h"
 #include "image/io.h"
 #include "package/glb.h"
 #include "photometry/formats.h"
@@ -50,6 +51,17 @@ Json array(const Mat4& m) {
   return out;
 }
 
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error("scene.glb", what + " holds a value that is infinite or not a number");
+}
+
+/// JSON would write null there.
+void check_finite(const Json& json, const std::string& key) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) refuse(key);
+  if (json.is_structured())
+    for (const auto& [name, value] : json.items()) check_finite(value, key + "/" + name);
+}
+
 class Writer {
  public:
   Writer(const Scene& scene, const std::string& generator) : scene_(scene) {
@@ -89,7 +101,9 @@ class Writer {
   }
 
   template <class T>
-  std::size_t add_attribute(const std::vector<T>& values, const char* type) {
+  std::size_t add_attribute(const std::vector<T>& values, const char* type, const Mesh& mesh) {
+    if (first_not_finite({&values.data()->x, values.size() * sizeof(T) / sizeof(float)}))
+      refuse("mesh '" + mesh.name + "'");
     const std::size_t view = add_view(values.data(), values.size() * sizeof(T), 34962);
     root_["accessors"].push_back(
         {{"bufferView", view}, {"componentType", 5126}, {"count", values.size()}, {"type", type}});
@@ -162,19 +176,19 @@ class Writer {
       throw Error("mesh '" + mesh.name + "'", "has no triangles");
     if (!mesh.material) throw Error("mesh '" + mesh.name + "'", "has no material");
     Json attributes;
-    attributes["POSITION"] = add_attribute(mesh.positions, "VEC3");
+    attributes["POSITION"] = add_attribute(mesh.positions, "VEC3", mesh);
     Bounds bounds;
     for (const Vec3& p : mesh.positions) bounds.add(p);
     Json& accessor = root_["accessors"].back();
     accessor["min"] = array(bounds.lo);
     accessor["max"] = array(bounds.hi);
-    if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(mesh.normals, "VEC3");
-    if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(mesh.tangents, "VEC4");
+    if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(mesh.normals, "VEC3", mesh);
+    if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(mesh.tangents, "VEC4", mesh);
     for (std::size_t set = 0; set < mesh.texcoords.size(); ++set) {
       // glTF numbers its sets without holes: one that this mesh lacks is written as zeros.
       std::vector<Vec2> uvs = mesh.texcoords[set];
       uvs.resize(mesh.positions.size(), Vec2(0));
-      attributes["TEXCOORD_" + std::to_string(set)] = add_attribute(uvs, "VEC2");
+      attributes["TEXCOORD_" + std::to_string(set)] = add_attribute(uvs, "VEC2", mesh);
     }
     static_assert(sizeof(Triangle) == 12);
     const std::size_t view = add_view(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle), 34963);
@@ -218,6 +232,7 @@ class Writer {
   }
 
   Json field(const LightField& f) {
+    if (first_not_finite(f.irradiance)) refuse("a light field");
     return {{"basis", name_of(f.basis)},
             {"columns", f.columns},
             {"rows", f.rows},
@@ -284,6 +299,7 @@ class Writer {
     while (bin_.size() % 4 != 0) bin_ += '\0';
     if (!bin_.empty()) root_["buffers"].push_back(Json::object({{"byteLength", bin_.size()}}));
     if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
+    check_finite(root_, "");
     std::string text = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
     while (text.size() % 4 != 0) text += ' ';
     const std::size_t total = 12 + 8 + text.size() + 8 + bin_.size();

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <limits>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -51,6 +52,53 @@ TEST(Package, FloatLayersComeBackBitForBit) {
   EXPECT_EQ(scene.groups.size(), 3u);
   EXPECT_EQ(scene.meshes[0].positions, c.scene.meshes[0].positions);
   EXPECT_FALSE(fs::exists(folder / ("x.sconce.writing-" + std::to_string(::getpid()))));
+}
+
+// NaN and infinity never enter a package, whatever the image and the encoding; the line says where.
+TEST(Package, WhatIsNotFiniteIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "x.sconce").string();
+  const auto error_of = [&](const PackageContents& c) {
+    try {
+      write_package(path, c);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const char* encoding : {"f32", "f16", "exp8", "rgbe8", "bc6h", "lum:f16", "auto"}) {
+    PackageContents c = test_package(2, 2, 8, 8);
+    c.encodings.assign(2, encoding);
+    EXPECT_EQ(error_of(c), "no error") << encoding;
+    c.layers[1][1].at(3, 2)[2] = kNaN;
+    const std::string line = error_of(c);
+    EXPECT_TRUE(line.starts_with(path + "/layers/")) << line;
+    EXPECT_TRUE(line.ends_with(": layer 'b' is not a number at texel (3, 2) of page 1")) << line;
+  }
+  EXPECT_NO_THROW(Package::open(path));  // the last one that was whole
+  const auto refused = [&](auto&& spoil, const std::string& what) {
+    PackageContents c = directional_test_package(2, 1, 8, 8);
+    c.raw = c.layers, c.raw_noise = c.noise;
+    spoil(c);
+    const std::string line = error_of(c);
+    EXPECT_NE(line.find(what + " at texel (1, 0) of page 0"), std::string::npos) << line;
+  };
+  refused([](auto& c) { c.layers[3][0].at(1, 0)[0] = kInfinity; }, "layer 'b'.x is infinite");
+  refused([](auto& c) { c.raw[0][0].at(1, 0)[1] = -kInfinity; }, "layer 'a' is infinite");
+  refused([](auto& c) { c.noise[0].at(1, 0)[1] = kNaN; }, "noise of 'b' is not a number");
+  refused([](auto& c) { c.raw_noise[0].at(1, 0)[0] = kNaN; }, "noise of 'a' is not a number");
+  refused([](auto& c) { c.receivers[0].at(1, 0)[3] = kNaN; }, "weight is not a number");
+  refused(
+      [](auto& c) {
+        Light sky;
+        sky.intensity = Rgb(1e30f);
+        sky.shape = SkyLight{Image::rgb(2, 1)};
+        std::get<SkyLight>(sky.shape).image.at(1, 0)[0] = 1e30f;
+        c.scene.lights.push_back(sky);
+      },
+      "the sky is infinite");
 }
 
 TEST(Package, RawLayersStandBesideDenoisedOnes) {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finite.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -62,11 +63,23 @@ void check(const PackageContents& c) {
     throw Error({}, "the package's instance tables do not match its scene");
 }
 
+/// What is not finite never enters a package: one such texel spoils every mix that it is in.
+/// @param what  of a channel, for the message
+void check_finite(const Image& image, const fs::path& file, std::size_t page,
+                  const std::function<std::string(std::size_t channel)>& what) {
+  const auto at = first_not_finite(image.data);
+  if (!at) return;
+  const std::size_t pixel = *at / image.stride(), width = static_cast<std::size_t>(image.width);
+  throw Error(file.string(), what(*at % image.stride()) + " is " +
+                                 (std::isnan(image.data[*at]) ? "not a number" : "infinite") + " at texel (" +
+                                 std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
+                                 ") of page " + std::to_string(page));
+}
+
 float largest(std::span<const Image> images) {
   float most = 0;
   for (const Image& image : images)
-    for (const float v : image.data)
-      if (std::isfinite(v)) most = std::max(most, std::abs(v));
+    for (const float v : image.data) most = std::max(most, std::abs(v));
   return most;
 }
 
@@ -207,6 +220,11 @@ class Writer {
     std::vector<const Image*> images;
     for (const std::size_t g : texture.groups)
       images.push_back(&layers[texture.coefficient * m_.groups.size() + g][page]);
+    for (std::size_t i = 0; i < images.size(); ++i)
+      check_finite(*images[i], file, page, [&](std::size_t) {
+        return "layer '" + m_.groups[texture.groups[i]].name + "'" +
+               std::string(coefficient_suffix(texture.coefficient));
+      });
     const EncodedImage encoded = texture.encode(images);
     for (std::size_t i = 0; i < images.size(); ++i) {
       const std::size_t g = texture.groups[i];
@@ -249,14 +267,21 @@ class Writer {
     for (int page = 0; page < m_.pages; ++page) {
       const auto i = static_cast<std::size_t>(page);
       c_.receivers[i].channels = {"albedo.R", "albedo.G", "albedo.B", "weight"};
-      jobs_.push_back({page_file("receivers", page),
-                       [this, i](const fs::path& f) { write_exr(f, c_.receivers[i], PixelType::full); }});
+      jobs_.push_back({page_file("receivers", page), [this, i](const fs::path& f) {
+                         const Image& image = c_.receivers[i];
+                         check_finite(image, f, i, [&](std::size_t c) { return image.channels[c]; });
+                         write_exr(f, image, PixelType::full);
+                       }});
       for (auto& [images, stem] : {std::pair(&c_.noise, "noise"), {&c_.raw_noise, "raw-noise"}}) {
         if (images->empty() || m_.groups.empty()) continue;
         Image& image = (*images)[i];
         image.channels = names_;
-        jobs_.push_back(
-            {page_file(stem, page), [&image](const fs::path& f) { write_exr(f, image, PixelType::half); }});
+        jobs_.push_back({page_file(stem, page), [this, &image, i](const fs::path& f) {
+                           check_finite(image, f, i, [&](std::size_t g) {
+                             return "noise of '" + m_.groups[g].name + "'";
+                           });
+                           write_exr(f, image, PixelType::half);
+                         }});
       }
     }
   }
@@ -267,6 +292,7 @@ class Writer {
       if (!std::holds_alternative<SkyLight>(light.shape)) continue;
       jobs_.push_back({sky_file(count++), [&light](const fs::path& f) {
                          const Image image = sky_image(light);
+                         check_finite(image, f, 0, [](std::size_t) { return "the sky"; });
                          const bool fits = largest({&image, 1}) <= find_encoding("f16").largest;
                          write_exr(f, image, fits ? PixelType::half : PixelType::full);
                        }});

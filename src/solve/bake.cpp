@@ -83,7 +83,8 @@ Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, con
     pixel[0] = e.r, pixel[1] = e.g, pixel[2] = e.b;
     valid[page][at] = 1;
     const float lux = luminance(e);
-    layer.noise[page].data[at] = lux > 0 ? values[i].error / lux : 0;
+    // Next to nothing by nothing is no number that a package holds.
+    layer.noise[page].data[at] = lux > 0 ? std::min(values[i].error / lux, 65504.0f) : 0;
     const double area = static_cast<double>(areas[i]), error = static_cast<double>(values[i].error);
     area_sum += area;
     lux_sum += area * static_cast<double>(lux);

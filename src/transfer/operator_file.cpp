@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/operator-format.md
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finite.h"
 #include "core/hash.h"
 #include "core/mapped_file.h"
 #include "transfer/operator.h"
@@ -101,9 +103,24 @@ bool fits(const Operator& op) {
          op.places.size() == op.gather.rows && op.lit.size() == op.points_per_slot * slots;
 }
 
+/// Codes always are.
+template <class T>
+bool finite(std::span<const T> values) {
+  if constexpr (std::is_same_v<T, float>) return !first_not_finite(values);
+  if constexpr (std::is_same_v<T, Rgbx>)
+    return !first_not_finite({reinterpret_cast<const float*>(values.data()), 4 * values.size()});
+  if constexpr (std::is_same_v<T, OperatorPoint>)
+    return std::none_of(values.begin(), values.end(),
+                        [](const OperatorPoint& p) { return first_not_finite(p.position).has_value(); });
+  return true;
+}
+
 }  // namespace
 
 void write_operator(const std::filesystem::path& path, const Operator& op) {
+  for_each_section(op, [&](const auto& array) {
+    if (!finite(array)) throw Error(path.string(), "would hold a number that is infinite or none");
+  });
   Head head{};
   std::memcpy(head.magic, kMagic.data(), sizeof head.magic);
   head.byte_order = kByteOrder, head.version = kVersion;

@@ -271,6 +271,22 @@ TEST_F(OperatorTest, DamageIsNamed) {
   EXPECT_THROW(open_operator(folder_ / "none.bin"), Error);
 }
 
+TEST_F(OperatorTest, WhatIsNotFiniteIsNotWritten) {
+  albedo_[3][1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(write_operator(file(), op), Error);
+  albedo_[3][1] = 0.5f;
+  lit_[7].position[2] = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(write_operator(file(), op), Error);
+  lit_[7].position[2] = 0;
+  std::vector<float> scales(op.gather.scales.begin(), op.gather.scales.end());
+  scales[5] = std::numeric_limits<float>::infinity();
+  op.gather.scales = scales;
+  EXPECT_THROW(write_operator(file(), op), Error);
+  EXPECT_FALSE(std::filesystem::exists(file()));
+  scales[5] = 1;
+  write_operator(file(), op);
+}
+
 TEST(OperatorPoint, NormalsAndAlbedosComeBack) {
   for (uint32_t i = 0; i < 500; ++i) {
     const Vec2 u = sobol_pair(i, 0, 3);
