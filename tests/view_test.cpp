@@ -78,26 +78,40 @@ TEST_F(ViewTest, MirrorsAreFollowedAtRest) {
   const auto baked = test::run_sconce(
       {"bake", path("x.glb"), "-o", path("x.sconce"), "--atlas", "128", "--samples", "8", "--quiet"});
   ASSERT_EQ(baked.code, 0) << baked.err;
-  const std::string script = "ev100 2\nsettle\npicture " + path("on.png") +
-                             "\nset left=off\nsettle\npicture " + path("left-off.png") + "\n";
+  const std::string script = "ev100 2\nsettle\npicture " + path("on.png") + "\npicture " + path("on.exr") +
+                             "\ntimes " + path("before.csv") + "\nset left=off\nsettle\npicture " +
+                             path("left-off.png") + "\ntimes " + path("moved.csv") + "\n";
   ASSERT_EQ(view(script).code, 0);
   const Image8 on = png("on.png"), off = png("left-off.png");
   ASSERT_EQ(
       view("ev100 2\nsettle\npicture " + path("none.png") + "\n", "x.sconce", {"--no-reflections"}).code, 0);
-  const auto rendered = [&](std::vector<std::string> arguments) {
-    std::vector<std::string> all{"render",   path("x.sconce"),
-                                 "--ev100",  "2",
-                                 "--device", "cpu",
-                                 "--size",   std::to_string(on.width) + "x" + std::to_string(on.height),
-                                 "-o",       path("cpu.png")};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const auto outcome = test::run_sconce(all);
+  const auto render = [&](const char* name, std::vector<std::string> arguments) {
+    for (const std::string& a :
+         {std::string("--device"), std::string("cpu"), std::string("--size"),
+          std::to_string(on.width) + "x" + std::to_string(on.height), std::string("-o"), path(name)})
+      arguments.push_back(a);
+    arguments.insert(arguments.begin(), {"render", path("x.sconce")});
+    const auto outcome = test::run_sconce(arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  const auto rendered = [&](const char* option = "--quiet") {
+    render("cpu.png", {"--ev100", "2", option});
     return png("cpu.png");
   };
-  EXPECT_LE(mean_difference(on, rendered({})), 1);
-  EXPECT_LE(mean_difference(off, rendered({"left=off"})), 1);
-  const Image8 without = rendered({"--no-reflections"});
+  EXPECT_LE(mean_difference(on, rendered()), 1);
+  EXPECT_LE(mean_difference(off, rendered("left=off")), 1);
+  const Image8 without = rendered("--no-reflections");
+  render("cpu.exr", {});
+  const auto mean = [&](const char* name) {
+    double sum = 0;
+    const Image image = read_exr(path(name));
+    EXPECT_EQ(image.width, on.width);
+    for (const float v : image.data) sum += static_cast<double>(v);
+    return sum;
+  };
+  EXPECT_NEAR(mean("on.exr") / mean("cpu.exr"), 1, 0.01);
+  const std::string times = read_file(path("moved.csv"));
+  EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 2) << times;  // one frame in which a fader moved
   EXPECT_LE(mean_difference(png("none.png"), without), 2);
   EXPECT_GT(mean_difference(on, without), 10);
 }

@@ -25,8 +25,8 @@ void Viewer::follow_mirrors() {
     mirrored_ = 0;
     return;
   }
-  if (const auto picture = mirroring_.take(); picture && canvas.version() == mirrored_)
-    canvas.set_at_rest(*picture, *state_.session);
+  if (auto picture = mirroring_.take(); picture && canvas.version() == mirrored_)
+    canvas.set_at_rest(std::move(*picture), *state_.session);
   if (canvas.version() == mirrored_ || drawing_more_ || state_.lamps.grip != Grip::none) return;
   mirrored_ = canvas.version();
   PictureParams params{.width = static_cast<int>(state_.canvas_size.x),

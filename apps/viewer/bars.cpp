@@ -42,7 +42,7 @@ constexpr Key kKeys[] = {{"Left drag", "turn around what is under the pointer"},
                          {"X", "meter once and hold"},
                          {"I", "reading under the pointer"},
                          {"Tab", "picture alone"},
-                         {"P or F12", "write the picture"},
+                         {"P or F12", "write the picture; with Shift as OpenEXR"},
                          {"Ctrl S", "write a preset"},
                          {"F1", "this help"}};
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/canvas.h"
 
-#include <chrono>
-
 #include "gpu/tiers.h"
 
 namespace sconce::viewer {
@@ -59,7 +57,7 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
 void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered) {
   const uint64_t relit = mover != nullptr ? mover->version() : 0;
   if (mixed_ && mix.weights == mix_.weights && relit == relit_ && (metered_ || !metered)) return;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const bool moved = mover != nullptr && mover->any();
   on_device_ = atlas_ != nullptr && !moved;
   if (!on_device_ || metered) {
@@ -67,7 +65,7 @@ void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered
     if (moved) relit_pages = mover->pages(mixer_, mix);
     const std::vector<Image>& pages = moved ? relit_pages : mixer_.mix(mix);
     if (metered) metering_ = opened_->meter(mix, pages);
-    fader_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    fader_ms_ = watch.milliseconds();
     if (!on_device_ && pages_ == nullptr)
       pages_ = std::make_unique<gpu::MixedPages>(*context_, pages);
     else if (!on_device_)
@@ -93,6 +91,7 @@ const gpu::LightSource& Canvas::light(LookKind look) {
 bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMover* mover) {
   const bool metered = session.mood().automatic || find_tone_mapper(session.mood().tone).needs_maximum;
   update_mix(session.mix(), mover, metered);
+  const Stopwatch watch;
   if (!same(scenery, drawn_)) samples_ = 0;
   const bool redisplay =
       samples_ < kSamples || !(session.mood() == shown_) || !(scenery.scale == drawn_.scale);
@@ -109,6 +108,7 @@ bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMove
   }
   drawn_ = scenery, shown_ = session.mood();
   if (redisplay) display(session, scenery);
+  drawing_ms_ = watch.milliseconds();
   return samples_ < kSamples;
 }
 
@@ -129,8 +129,9 @@ void Canvas::display(const Session& session, const Scenery& scenery) {
   }
 }
 
-void Canvas::set_at_rest(const Image& linear, const Session& session) {
+void Canvas::set_at_rest(Image linear, const Session& session) {
   at_rest_ = picture_texture(*context_, linear, "picture at rest");
+  at_rest_linear_ = std::move(linear);
   display(session, drawn_);
 }
 

@@ -36,7 +36,7 @@ class Canvas : public Screen {
   void forget_reference() { reference_sum_.reset(); }
   /// The same picture by rays, with what mirrors show: stands instead of what was drawn until anything but
   /// the exposure changes. @param linear  cd/m2
-  void set_at_rest(const Image& linear, const Session& session);
+  void set_at_rest(Image linear, const Session& session);
   /// Counts the pictures that were begun anew.
   uint64_t version() const { return version_; }
   void draw_anew() { samples_ = 0; }
@@ -44,7 +44,7 @@ class Canvas : public Screen {
   std::vector<Image> mixed_pages(const LampMover* mover);
 
   ImTextureID reference() const { return id_of(reference_display_.texture()); }
-  Image linear() const override { return view_.linear(); }
+  Image linear() const override { return at_rest_ ? at_rest_linear_ : view_.linear(); }
   static constexpr int kSamples = 16;
 
  private:
@@ -62,6 +62,7 @@ class Canvas : public Screen {
   MixSpec noise_mix_;
   gpu::DisplayPass reference_display_;
   std::unique_ptr<gpu::Texture> reference_sum_, at_rest_;
+  Image at_rest_linear_;
 
   bool on_device_ = false;
   uint64_t relit_ = 0;  ///< LampMover::version()

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/driver.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -160,7 +164,13 @@ bool Driver::perform(const Action& action) {
                                                                            (kHighestStop - kLowestStop));
     return drag(x, y, x + numbers(action, 1, 1)[0], y), true;
   }
-  if (word == "picture") return write_png(arguments[0], s.screen().read()), true;
+  if (word == "picture") return v.write_picture(arguments[0]), true;
+  if (word == "times") {
+    std::string lines = "own_ms,drawing_ms\n";
+    for (const auto& [own, drawing] : std::exchange(v.times_, {}))
+      lines += fmt::format("{:.3f},{:.3f}\n", own, drawing);
+    return write_file(arguments[0], lines), true;
+  }
   if (word == "hold") return s.session->meter_once(v.metering_now()), frames_ = 1, true;
   if (word == "look") return v.set_look(find_look(arguments[0]).kind), frames_ = 1, true;
   if (word == "scale") {

@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include <chrono>
 #include <cstdint>
 
 #include "gpu/display_pass.h"
@@ -14,6 +15,16 @@ namespace sconce::viewer {
 inline ImTextureID id_of(const gpu::Texture& texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture.handle()));
 }
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 class Screen {
  public:
@@ -27,13 +38,15 @@ class Screen {
   const Metering& metering() const { return metering_; }
   const MixSpec& mix() const { return mix_; }
   double fader_milliseconds() const { return fader_ms_; }  ///< processor's work of the last fader move
+  /// Of the last draw(), in OpenGL.
+  double drawing_milliseconds() const { return drawing_ms_; }
 
  protected:
   gpu::DisplayPass display_;
   MixSpec mix_;
   bool mixed_ = false, metered_ = false;
   Metering metering_;
-  double fader_ms_ = 0;
+  double fader_ms_ = 0, drawing_ms_ = 0;
 };
 
 }  // namespace sconce::viewer

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "gpu/window_target.h"
 #include "image/io.h"
 #include "package/manifest.h"
 #include "session/to_scene.h"
@@ -70,6 +71,8 @@ void Viewer::run() {
 
 void Viewer::frame(double wait) {
   window_.begin_frame(busy() && !drawing_more_ && wait > 0 ? 0.03 : wait, hands_);
+  const Stopwatch frame_watch;
+  const std::vector<Rgb> before = state_.ready() ? state_.screen().mix().weights : std::vector<Rgb>();
   for (const std::string& file : window_.take_dropped()) attempt([&] { drop(file); });
   take_results();
   keys();
@@ -88,7 +91,13 @@ void Viewer::frame(double wait) {
   top_bar({0, 0}, {all.x, top});
   status_bar({0, all.y - bottom}, {all.x, bottom});
   help_card();
+  const Stopwatch end_watch;
   shot_ = window_.end_frame(want_shot_);
+  if (hands_ && state_.ready() && state_.screen().mix().weights != before) {
+    gpu::finish_window();  // else what is drawn yet would slow the next frame's own work down
+    const double drawing = end_watch.milliseconds() + state_.screen().drawing_milliseconds();
+    times_.push_back({frame_watch.milliseconds() - drawing, drawing});
+  }
   want_shot_ = false;
 }
 
@@ -277,9 +286,17 @@ void Viewer::seek_picture(const fs::path& file) {
 }
 
 void Viewer::screenshot() {
-  const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
-  write_png(name, state_.screen().read());
+  const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}{}", fmt::localtime(std::time(nullptr)),
+                                       ImGui::GetIO().KeyShift ? ".exr" : ".png");
+  write_picture(name);
   note("picture written: " + fs::absolute(name).string());
+}
+
+void Viewer::write_picture(const fs::path& file) const {
+  if (lower(file.extension().string()) == ".exr")
+    write_exr(file, state_.screen().linear(), PixelType::full);
+  else
+    write_png(file, state_.screen().read());
 }
 
 void Viewer::save_preset() {

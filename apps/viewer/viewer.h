@@ -142,6 +142,8 @@ class Viewer {
   /// What mirrors show, by rays, as soon as the picture rests.
   void follow_mirrors();
   void screenshot();
+  /// PNG as shown, OpenEXR linear. @throws Error
+  void write_picture(const std::filesystem::path& file) const;
   void save_preset();
   /// Keeps what was baked. @param target  empty = beside the scene
   void save_package(std::filesystem::path target);
@@ -181,6 +183,11 @@ class Viewer {
   Background<std::shared_ptr<const Movable>> preparing_;
   Background<LampMover::Fine> refining_;
   Background<Image> mirroring_;
+  /// Milliseconds of a frame in which faders moved, by a script.
+  struct FrameTime {
+    double own, drawing;
+  };
+  std::vector<FrameTime> times_;
   uint64_t mirrored_ = 0;  ///< Canvas::version() that rays were sent for
   std::optional<ReferencePicture> reference_;
   std::optional<MeasuredLight> traced_;

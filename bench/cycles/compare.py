@@ -93,7 +93,7 @@ class Bench:
     def sconce(self, case, references):
         """Points (samples, seconds, {group: error}). The atlas and the reading of the scene are not counted: Cycles uses what
         they give."""
-        _, before = self.bake(case, "dry", self.options.solver, 1, more=["--dry-run"])
+        _, before = self.bake(case, "dry", "external:true", 1, more=["--dry-run"])  # no solver is prepared
         points = []
         for samples in self.options.samples:
             package, seconds = self.bake(case, f"sconce-{samples}", self.options.solver, samples,

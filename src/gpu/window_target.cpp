@@ -14,6 +14,10 @@ void clear_window(int width, int height) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
+void finish_window() {
+  glFinish();
+}
+
 Image8 read_window(int width, int height) {
   Image8 out{width, height, 3, {}};
   const std::size_t row = 3 * static_cast<std::size_t>(width);

@@ -50,7 +50,12 @@ constexpr ActionRow kRows[] = {
     {"wait", "SECONDS", "draws as long as that", 1, 1},
     {"settle", "", "draws until nothing is left to do: samples, fades, measurements, a bake", 0, 0},
     {"screenshot", "FILE.png", "the whole window", 1, 1},
-    {"picture", "FILE.png", "the picture alone, without panels", 1, 1},
+    {"picture", "FILE.png|.exr", "the picture alone, without panels; OpenEXR is linear, before exposure", 1,
+     1},
+    {"times", "FILE.csv",
+     "writes how long the frames took in which faders moved, since the last `times`: milliseconds of the "
+     "window's own work, of OpenGL",
+     1, 1},
     {"package", "NAME.sconce", "saves what was baked", 1, 1},
     {"scene", "NAME.glb", "writes the scene as it is mixed, as `sconce export --scene`", 1, 1},
     {"quit", "", "ends", 0, 0},
