@@ -11,7 +11,8 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build web test bench validate robustness docs format tidy setup
+PREFIX ?= /usr/local
+.PHONY: help demo build web test bench install deb validate robustness docs format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -28,6 +29,14 @@ build: setup $(BUILD)/build.ninja ## the program: build/release/sconce
 web: setup $(BUILD)/build.ninja ## the page of sconce export --web and serve: build/release/web (needs npm)
 	@tools/setup.sh web && cmake --preset release -B $(BUILD) >/dev/null
 	ninja -C $(BUILD) web
+
+install: setup $(BUILD)/build.ninja ## the program, its data and documents, sconce-runtime: below PREFIX (/usr/local); DESTDIR works
+	ninja -C $(BUILD) sconce sconce-runtime
+	cmake --install $(BUILD) --prefix $(PREFIX)
+
+deb: setup $(BUILD)/build.ninja ## the same as a Debian package: out/sconce_*.deb
+	ninja -C $(BUILD) sconce sconce-runtime
+	cpack --config $(BUILD)/CPackConfig.cmake -B $(OUT) && rm -rf $(OUT)/_CPack_Packages
 
 demo: build ## bake our bathroom and picture it in four moods: out/demo/
 	scenes/demo.sh $(BUILD) $(OUT)/demo

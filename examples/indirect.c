@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/sconce_transfer.h"
+#include <sconce.h>
 
 /* Illuminance by a bulb at a point, without shadows: here your renderer has its own lights and shadow maps.
  */

@@ -142,7 +142,7 @@ TEST_F(GlPictures, NormalMapsInEveryTier) {
   const PictureParams params{.width = 320, .height = 320, .samples = 1};
   for (const ShaderTier& tier : shader_tiers()) {
     SCOPED_TRACE(tier.name);
-    const EncodedLayers layers = gpu::for_tier(read_layers(package, coefficients(Basis::sh1)), tier);
+    const EncodedLayers layers = for_tier(read_layers(package, coefficients(Basis::sh1)), tier);
     std::vector<std::vector<Image>> mixed;
     for (std::size_t c = 0; c < layers.coefficients(); ++c)
       mixed.push_back(plain_mix(layers, mix.weights, c));
@@ -189,7 +189,7 @@ TEST_F(GlPictures, EveryEncodingInEveryTier) {
     const EncodedLayers stored = encoded_as(package, parse_encoding(name));
     for (const ShaderTier& tier : shader_tiers()) {
       SCOPED_TRACE(std::string(name) + " " + std::string(tier.name));
-      const EncodedLayers layers = gpu::for_tier(stored, tier);
+      const EncodedLayers layers = for_tier(stored, tier);
       gpu::PixelMix light(context, layers, tier);
       if (!shaders.insert(light.glsl()).second) continue;  // 8-bit codes are the same in every tier
       const Image expected = cpu.render(camera, mix, plain_mix(layers, mix.weights), params);

@@ -56,6 +56,7 @@ TEST_F(MixRender, LightmapIsTheWeightedSum) {
   const Image mixed = read_exr(path("m.exr"));
   EXPECT_EQ(mixed.width, 8);
   EXPECT_EQ(mixed.text.at("sconce:unit"), "lux");
+  EXPECT_NE(mixed.text.at("sconce:convention").find("albedo * E / pi"), std::string::npos);
   for (const float v : mixed.data) EXPECT_EQ(v, 90.0f);
 }
 

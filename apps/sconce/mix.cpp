@@ -14,6 +14,7 @@
 #include "image/io.h"
 #include "mix/tone_lightmap.h"
 #include "mix_picture.h"
+#include "package/convention.h"
 #include "tone_options.h"
 
 namespace fs = std::filesystem;
@@ -40,6 +41,7 @@ Mixed mix_package(const std::string& input, const MixOptions& settings, const Pr
     progress.check();
     progress.at("mix", static_cast<uint64_t>(page), static_cast<uint64_t>(package.manifest().pages));
     out.pages.push_back(mix_page(package, out.mix, page));
+    out.pages.back().text["sconce:convention"] = lightmap_convention(package.manifest().lightmap_set);
   }
   if (tone != nullptr) {
     const Exposure exposure = tone->exposure_choice().resolve(meter(package, out.mix, out.pages));

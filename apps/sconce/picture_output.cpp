@@ -19,6 +19,7 @@ std::string default_output(const std::string& package, const std::string& ending
 void write_linear(const std::string& output, Image picture, const Exposure& exposure) {
   for (float& v : picture.data) v *= exposure.scale;
   picture.number["whiteLuminance"] = exposure.white_luminance();
+  picture.text["sconce:convention"] = "luminance in cd/m2: value * whiteLuminance, linear; row 0 is the top";
   write_exr(output, picture, PixelType::full);
 }
 

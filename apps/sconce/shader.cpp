@@ -8,6 +8,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "mix_options.h"
+#include "package/convention.h"
 #include "package/manifest.h"
 #include "shader/composer.h"
 
@@ -19,14 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Form = ShaderSpec::Form;
-
-Form parse_form(const std::string& name) {
-  if (name == "picture") return Form::picture;
-  if (name == "functions") return Form::functions;
-  if (name == "atlas") return Form::atlas;
-  if (name == "compute") return Form::compute;
-  throw UsageError("--form", "unknown form '" + name + "'", "picture, functions, atlas, compute");
-}
 
 /// OpenGL's name of a texture of such texels.
 std::string internal_format(const EncodingChoice& choice) {
@@ -142,7 +135,7 @@ int run_shader(int argc, const char* const* argv) {
   ShaderSpec spec;
   spec.target = &find_shader_target(target);
   spec.tier = &find_shader_tier(tier);
-  spec.form = parse_form(form);
+  spec.form = find_shader_form(form);
   spec.tone = tone == "none" ? nullptr : &find_tone_mapper(tone);
   spec.units = units;
   const Package package = Package::open(input);
@@ -161,6 +154,7 @@ int run_shader(int argc, const char* const* argv) {
       {"atlas",
        {{"width", package.manifest().width}, {"height", package.manifest().height}, {"pages", spec.pages}}},
       {"unit", "lux, linear Rec. 709"},
+      {"convention", lightmap_convention(package.manifest().lightmap_set)},
       {"basis", basis_row(package.manifest().basis).name},
       {"samplers", samplers_json(package, spec, shader)},
       {"uniforms", uniforms_json(package, spec)}};

@@ -84,7 +84,7 @@ class GlStage : public Stage {
         tier_(&(tier == "auto" ? gpu::tier_of(context_->capabilities()) : find_shader_tier(tier))),
         shown_(package),
         directional_(package.manifest().basis == Basis::sh1 && shown_.scene.has_normal_maps()),
-        layers_(gpu::for_tier(read_layers(package, directional_ ? coefficients(Basis::sh1) : 1), *tier_)),
+        layers_(for_tier(read_layers(package, directional_ ? coefficients(Basis::sh1) : 1), *tier_)),
         view_(*context_, shown_, directional_) {}
   std::string device() const override { return context_->capabilities().renderer; }
   const Scene& scene() const override { return shown_.scene; }

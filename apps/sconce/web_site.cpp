@@ -2,6 +2,7 @@
 #include "web_site.h"
 
 #include "core/error.h"
+#include "core/installed.h"
 #include "core/text.h"
 #include "picture/render.h"
 
@@ -11,13 +12,11 @@ namespace sconce::app {
 
 namespace {
 
-/// Beside the program, or where an installation keeps it.
 fs::path page_folder() {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& folder : {program / "web", program.parent_path() / "share/sconce/web"})
-    if (fs::exists(folder / "index.html")) return folder;
-  throw Error((program / "web" / "index.html").string(),
-              "the page is not built: 'make web' does that, and needs npm");
+  const fs::path page = installed_file("web/index.html");
+  if (!fs::exists(page))
+    throw Error(page.string(), "the page is not built: 'make web' does that, and needs npm");
+  return page.parent_path();
 }
 
 std::vector<const ShaderTier*> tiers_of(const std::string& text) {

@@ -2,6 +2,7 @@
 // The bars at top and bottom, notes, help, and what is shown where nothing is open.
 #include <fmt/format.h>
 
+#include "core/installed.h"
 #include "viewer/viewer.h"
 #include "viewer/widgets.h"
 
@@ -185,8 +186,9 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
   } else {
     ImGui::TextDisabled("NAME.sconce; glTF or OBJ, baked while you look; OpenEXR with light groups.");
     ImGui::Dummy({0, px(12)});
-    if (fs::exists(SCONCE_DEMO) && request_.bake && ImGui::Button("Our bathroom", {px(150), px(34)}))
-      attempt([&] { open(SCONCE_DEMO); });
+    const fs::path ours = installed_file("scenes/bathroom.glb");
+    if (fs::exists(ours) && request_.bake && ImGui::Button("Our bathroom", {px(150), px(34)}))
+      attempt([&] { open(ours); });
     ImGui::Dummy({0, px(12)});
     if (!remembered_.recent.empty()) ImGui::TextDisabled("Recent");
     for (const std::string& file : std::vector(remembered_.recent))

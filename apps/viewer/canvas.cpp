@@ -51,7 +51,7 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
   const ShaderTier& tier = gpu::tier_of(context.capabilities());
   // Mixing by a processor that plays graphics device is slower than by the one that is a processor.
   if (!context.capabilities().software && tier.f16)
-    atlas_ = std::make_unique<gpu::AtlasMix>(context, gpu::for_tier(opened_->layers, tier), tier);
+    atlas_ = std::make_unique<gpu::AtlasMix>(context, for_tier(opened_->layers, tier), tier);
 }
 
 void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered) {

@@ -60,6 +60,9 @@ struct ShaderSpec {
   const ToneLut* lut = nullptr;      ///< instead of the formula, where given
 };
 
+/// @throws UsageError naming the choices
+ShaderSpec::Form find_shader_form(std::string_view name);
+
 /// A sampler of the composed shader and what lies in it.
 struct ShaderSampler {
   std::string name;

@@ -24,6 +24,14 @@ constexpr ShaderTier kTiers[] = {
     {"byte", "8-bit channels only", false, false, false, false},
 };
 
+constexpr struct {
+  ShaderSpec::Form form;
+  std::string_view name;
+} kForms[] = {{ShaderSpec::Form::picture, "picture"},
+              {ShaderSpec::Form::functions, "functions"},
+              {ShaderSpec::Form::atlas, "atlas"},
+              {ShaderSpec::Form::compute, "compute"}};
+
 }  // namespace
 
 std::span<const ShaderTarget> shader_targets() {
@@ -37,6 +45,10 @@ std::span<const ShaderTier> shader_tiers() {
 }
 const ShaderTier& find_shader_tier(std::string_view name) {
   return find_row(shader_tiers(), name, "tier");
+}
+
+ShaderSpec::Form find_shader_form(std::string_view name) {
+  return find_row(kForms, name, "shader form").form;
 }
 
 EncodingChoice tier_encoding(const ShaderTier& tier, const EncodingChoice& encoding, bool is_signed) {

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "encode/half.h"
-#include "gpu/tiers.h"
-#include "mix/encoded_layers.h"
+#include "mix/tier_layers.h"
 #include "web/parts.h"
 
 namespace sconce::web {
@@ -59,7 +58,7 @@ Json needs_of(const ComposedShader& shader) {
 Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier,
                 const std::optional<EncodingChoice>& encoding) {
   const std::string name(tier.name);
-  const EncodedLayers layers = gpu::for_tier(layers_of(package, encoding), tier);
+  const EncodedLayers layers = for_tier(layers_of(package, encoding), tier);
   const ComposedShader shader = compose(spec_of(layers, tier));
   Json out = {{"name", name}, {"doc", tier.doc}, {"needs", needs_of(shader)}};
   out["shader"] = files.write(name + ".glsl", [&] { return shader.text; })["file"];

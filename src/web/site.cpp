@@ -7,6 +7,7 @@
 #include "core/files.h"
 #include "core/kelvin.h"
 #include "mix/settings.h"
+#include "package/convention.h"
 #include "web/packed.h"
 #include "web/parts.h"
 
@@ -109,6 +110,7 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
               {"version", 1},
               {"generator", m.generator},
               {"name", m.scene_name},
+              {"convention", lightmap_convention(m.lightmap_set)},
               {"atlas", {{"width", m.width}, {"height", m.height}, {"pages", m.pages}}},
               {"groups", groups_json(m)},
               {"cameras", cameras_json(params.cameras)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/sconce_transfer.h"
+#include "runtime/sconce.h"
 
 #include <algorithm>
 #include <atomic>

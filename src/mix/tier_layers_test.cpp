@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gpu/tiers.h"
+#include "mix/tier_layers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace sconce::gpu {
+namespace sconce {
 namespace {
 
 // Direct sun, above 65504 lux, is no half.
@@ -22,4 +22,4 @@ TEST(Tiers, WhatIsTooBrightForHalvesKeepsItsLight) {
 }
 
 }  // namespace
-}  // namespace sconce::gpu
+}  // namespace sconce
