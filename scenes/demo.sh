@@ -13,7 +13,7 @@ scenes=$(cd "$(dirname "$0")" && pwd)
 cmake --build "$build" --target sconce contact_sheet
 mkdir -p "$out"
 
-"$build/sconce" bake "$scenes/bathroom.glb" -o "$out/bathroom.sconce" --density 40 --quality normal --denoise on | sed '/^next: /d'
+"$build/sconce" bake "$scenes/bathroom.glb" -o "$out/bathroom.sconce" --density 40 --samples 128 --denoise on | sed '/^next: /d'
 
 sheet=()
 for mood in morning evening night cleaning; do

@@ -22,14 +22,35 @@ namespace {
 
 struct Quality {
   const char* name;
-  int samples;
+  double noise;      ///< of all light at a texel, relative standard error
+  int most_samples;  ///< of a texel that does not get there
+  int samples;       ///< what caches are made good enough for, and what programs are asked for
 };
-constexpr Quality kQualities[] = {{"draft", 32}, {"normal", 128}, {"final", 1024}};
+constexpr Quality kDraft{"draft", 0.1, 256, 32}, kNormal{"normal", 0.03, 2048, 128},
+    kFinal{"final", 0.01, 16384, 1024};
 
-int samples_of(const std::string& quality) {
-  for (const Quality& q : kQualities)
-    if (quality == q.name) return q.samples;
-  throw UsageError("--quality", "unknown quality '" + quality + "'", "draft, normal, final");
+Quality quality_of(const std::string& name) {
+  for (const Quality& q : {kDraft, kNormal, kFinal})
+    if (name == q.name) return q;
+  throw UsageError("--quality", "unknown quality '" + name + "'", "draft, normal, final");
+}
+
+/// How long texels are worked at: so many samples, until a noise, as a quality says; or what programs take.
+void set_effort(BakeParams& params, int samples, double noise, const Quality& quality, bool timed,
+                bool runs_program) {
+  params.noise = noise;
+  params.samples = samples;
+  if (timed) {
+    params.cache_samples = kFinal.samples;  // how many fit is known only after the cache is made
+    params.samples = kFinal.samples;
+  } else if (samples == 0 && runs_program) {
+    params.samples = quality.samples;
+  } else if (samples == 0) {
+    const Quality& asked = noise > 0 ? kFinal : quality;
+    if (noise == 0) params.noise = asked.noise;
+    params.samples = asked.most_samples;
+    params.cache_samples = asked.samples;
+  }
 }
 
 Shard parse_shard(const std::string& text) {
@@ -78,20 +99,36 @@ void check_writable(const fs::path& output) {
     throw Error(output.string(), "exists and is no package, so it is left alone");
 }
 
+double clock_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Samples that fit the time; leaves the solver with them. All ranks together.
 int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const Ranks& ranks) {
   if (!solver.set_samples(kBatches))
     throw UsageError("--time", "means nothing to the solver " + bake.job.solver, "radiosity, path, photon");
-  const auto now = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
   int samples = samples_within(std::max(0.0, seconds) * ranks.count, solver, bake.receivers,
-                               bake.scene.groups.size() * coefficients(bake.job.params.basis), now);
+                               bake.scene.groups.size() * coefficients(bake.job.params.basis), clock_seconds);
   if (ranks.count > 1)
     for (const std::string& other : ranks.allgather(std::to_string(samples)))
       samples = std::min(samples, std::stoi(other));
   solver.set_samples(samples);
   return samples;
+}
+
+/// For `--dry-run`: what is computed once, and all texels as some take it.
+std::optional<double> expected_seconds(const Request& request, const PreparedBake& bake, const Ranks& ranks,
+                                       const Progress& progress) {
+  if (request.given.time > 0) return request.given.time;
+  if (bake.plan.count(true) == 0) return 0;
+  if (find_solver(bake.job.solver).runs_program) return std::nullopt;
+  const double start = clock_seconds();
+  const auto solver = make_solver(bake, state_path(request), ranks, progress);
+  const double once = clock_seconds() - start;
+  const double share = request.shard ? request.shard->count : ranks.count;
+  return once + seconds_for(*solver, bake.receivers,
+                            bake.scene.groups.size() * coefficients(bake.job.params.basis), clock_seconds) /
+                    share;
 }
 
 /// `--movable`: the lightmap's operator, unless one of this package stands.
@@ -111,10 +148,8 @@ void make_movable(const Request& request, const Options& options, RankSession& s
 }
 
 int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const double start = clock_seconds();
+  const auto seconds = [&] { return clock_seconds() - start; };
   const Ranks ranks = session.ranks();
   std::optional<PreparedBake> prepared;
   double time = request.given.time;
@@ -134,7 +169,7 @@ int execute(const Request& request, const Options& options, RankSession& session
   });
   const PreparedBake& bake = *prepared;
   if (request.dry_run) {
-    print_plan(bake, options.json);
+    print_plan(bake, expected_seconds(request, bake, ranks, progress), options.json);
     return kDone;
   }
   if (bake.up_to_date()) {
@@ -196,9 +231,11 @@ void declare(Options& options, Request& request) {
                  "how light travels: radiosity, path, photon, or external:CMD, a program run once per group");
   options.option("--atlas", &page, "page size in texels; the density follows (default: 1024)");
   options.option("--density", &density, "texels per metre; pages follow, up to 4096 each");
-  options.option("--quality", &quality, "draft, normal or final: 32, 128 or 1024 samples");
+  options.option("--quality", &quality, "draft, normal or final: 10, 3 or 1 % noise of all light at a texel");
   options.option("--samples", &samples, "paths per texel, instead of --quality");
-  options.option("--noise", &noise, "stop a texel early at this relative standard error, e.g. 2%");
+  options.option("--noise", &noise,
+                 "a texel is done at this relative standard error, e.g. 2%, instead of --quality; with "
+                 "--samples at the latest after these");
   options.duration("--time", &time, "as many samples as fit this time, e.g. 5m, instead of --samples");
   options.option("--bounces", &bounces, "reflections; 0 = direct light only, -1 = unbounded");
   options.option("--cloud", &job.params.cloud,
@@ -223,7 +260,9 @@ void declare(Options& options, Request& request) {
   options.option("--shard", &shard, "i/n: bake only this part of the texels; see merge");
   options.flag("--resume", &request.resume, "continue an interrupted bake");
   options.flag("--force", &request.force, "solve all groups anew, whatever of the package still holds");
-  options.flag("--dry-run", &request.dry_run, "report atlas, groups and which would be solved; bake nothing");
+  options.flag("--dry-run", &request.dry_run,
+               "report texels, pages, megabytes, groups, which would be solved and how long it would take; "
+               "bake nothing");
 }
 
 /// @return exit code when nothing is left to do
@@ -264,23 +303,19 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
     throw UsageError("--max-error", fmt::format("{} is out of range", max_error), "above 0, below 100 %");
   job.max_error = max_error;
   if (job.may_use_blocks()) job.atlas.gutter = 4;
-  if (noise > 0 && samples == 0) samples = samples_of("final");
   if (denoise != "on" && denoise != "off")
     throw UsageError("--denoise", "'" + denoise + "' is not understood", "on, off");
   job.denoise = denoise == "on";
-  job.params.samples = samples > 0 ? samples : samples_of(quality);
-  // How many fit is known only after the cache is made.
-  if (time > 0) job.params.cache_samples = samples_of("final");
+  const bool runs_program = find_solver(job.solver).runs_program;
+  set_effort(job.params, samples, noise, quality_of(quality), time > 0, runs_program);
   job.params.bounces = bounces;
   job.params.basis = find_basis(basis);
-  job.params.noise = noise;
   job.params.photons = static_cast<std::size_t>(photons);
   job.params.final_gather = !direct_estimate;
   job.params.seed = static_cast<uint32_t>(seed);
   job.atlas.density = static_cast<float>(density);
   job.atlas.page_size = density > 0 ? 0 : page > 0 ? page : 1024;
   parse_grouping(job.grouping);
-  const bool runs_program = find_solver(job.solver).runs_program;
   if (job.params.basis != Basis::flat && (runs_program || direct_estimate))
     throw UsageError("--basis",
                      basis + " cannot stand beside " +

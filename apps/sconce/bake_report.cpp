@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
+#include "encode/choice.h"
 
 namespace sconce::app {
 
@@ -18,19 +19,34 @@ std::vector<std::string> names(const PreparedBake& bake, bool solved) {
   return result;
 }
 
+/// Bytes of all layers, before files compress them; "auto" counts as the halves that it is at most.
+double layer_bytes(const PreparedBake& bake) {
+  double pixel = 0;
+  for (const std::string& name : bake.encodings)
+    pixel += parse_encoding(name == kAutoEncoding ? "f16" : name).bytes_per_texel();
+  return pixel * static_cast<double>(coefficients(bake.job.params.basis)) * bake.atlas.width *
+         bake.atlas.height * bake.atlas.pages;
+}
+
+std::string in_words(double seconds) {
+  return seconds < 90 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1f} min", seconds / 60);
+}
+
 }  // namespace
 
-void print_plan(const PreparedBake& bake, bool json) {
+void print_plan(const PreparedBake& bake, std::optional<double> seconds, bool json) {
   const AtlasReport& report = bake.atlas.report;
   const std::vector<std::string> solved = names(bake, true), kept = names(bake, false);
   if (json) {
-    const nlohmann::json plan = {{"solved", solved},
-                                 {"kept", kept},
-                                 {"triangles", bake.world.size()},
-                                 {"receivers", bake.receivers.size()},
-                                 {"pages", bake.atlas.pages},
-                                 {"width", bake.atlas.width},
-                                 {"height", bake.atlas.height}};
+    nlohmann::json plan = {{"solved", solved},
+                           {"kept", kept},
+                           {"triangles", bake.world.size()},
+                           {"receivers", bake.receivers.size()},
+                           {"pages", bake.atlas.pages},
+                           {"width", bake.atlas.width},
+                           {"height", bake.atlas.height},
+                           {"layer_bytes", layer_bytes(bake)}};
+    if (seconds) plan["seconds"] = *seconds;
     fmt::print("{}\n", plan.dump(2));
     return;
   }
@@ -45,6 +61,9 @@ void print_plan(const PreparedBake& bake, bool json) {
       report.stretch_max, report.twins);
   fmt::print("to be solved: {}; kept: {}\n", solved.empty() ? "nothing" : join(solved, ", "),
              kept.empty() ? "nothing" : join(kept, ", "));
+  fmt::print("{} texels, {:.3g} MB of layers before compression, {}\n", bake.receivers.size(),
+             layer_bytes(bake) / 1e6,
+             seconds ? "about " + in_words(*seconds) + " on this machine" : "time not known beforehand");
 }
 
 void print_result(const PreparedBake& bake, const Manifest& manifest, const std::filesystem::path& output,

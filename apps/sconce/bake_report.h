@@ -7,7 +7,8 @@
 namespace sconce::app {
 
 /// What a bake would do, for `--dry-run`: lines for a person, or JSON.
-void print_plan(const PreparedBake& bake, bool json);
+/// @param seconds  that it would take here; not known = a program would bake
+void print_plan(const PreparedBake& bake, std::optional<double> seconds, bool json);
 
 /// "name: 5 groups, 13 lamps, ..." lines for a person, or JSON.
 void print_result(const PreparedBake& bake, const Manifest& manifest, const std::filesystem::path& output,

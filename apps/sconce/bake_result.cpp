@@ -115,7 +115,10 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
     manifest.instance_twins.push_back(twin.valid() ? static_cast<int>(twin.value) : -1);
   manifest.options = options;
   manifest.facts = {{"solver", bake.job.solver},
-                    {"samples", fmt::format("{}", bake.job.params.samples)},
+                    {"samples", bake.job.params.noise > 0
+                                    ? fmt::format("up to {}, until {:.3g} % noise", bake.job.params.samples,
+                                                  100 * bake.job.params.noise)
+                                    : fmt::format("{}", bake.job.params.samples)},
                     {"denoised", bake.job.denoise ? "yes" : "no"},
                     {"isa", isa()},
                     {"seed", fmt::format("{}", bake.job.params.seed)},

@@ -166,6 +166,8 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
     else
       kernel.sample(receiver, stream, index, Sh1Sums(into));
   };
+  // Where few paths find light, the first samples find none and differ by nothing.
+  constexpr uint32_t kDark = 512 / kBatches;
   uint32_t done = 0;
   // Rounds double, so that every stop leaves a whole power of two per batch.
   for (uint32_t round = params.noise > 0 ? std::min(most, 2u) : most;; round = std::min(most, 2 * round)) {
@@ -201,7 +203,8 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
       squares_total += l * l;
     }
     const double error_total = std::sqrt(squares_total / (kBatches * (kBatches - 1)));
-    if (done >= most || error_total <= params.noise * mean_total) return;
+    const bool dark = mean_total == 0 && done < kDark;
+    if (done >= most || (!dark && error_total <= params.noise * mean_total)) return;
   }
 }
 

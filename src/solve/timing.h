@@ -17,4 +17,9 @@ namespace sconce {
 int samples_within(double seconds, Solver& solver, const TexelReceivers& receivers, std::size_t values,
                    const std::function<double()>& now);
 
+/// Seconds that all receivers take a solver as it was prepared, by a trial of about two seconds on some of
+/// them. @param values, now  as above
+double seconds_for(const Solver& solver, const TexelReceivers& receivers, std::size_t values,
+                   const std::function<double()>& now);
+
 }  // namespace sconce

@@ -43,5 +43,15 @@ TEST(SamplesWithin, FitsTheTime) {
   EXPECT_EQ(samples(0), kBatches) << "what came before took all the time";
 }
 
+TEST(SecondsFor, AllReceivers) {
+  Scene scene;
+  add_box(scene, "room", add_material(scene, "white", Rgb(0.7f), Rgb(1)), Vec3(0), Vec3(1), true);
+  const LitAtlas lit(std::move(scene), Grouping::one, 32);
+  PatientSolver solver;
+  solver.set_samples(100);
+  EXPECT_NEAR(seconds_for(solver, lit.receivers, 1, [&] { return solver.now(); }),
+              100 * 50e-6 * static_cast<double>(lit.receivers.size()), 1e-6);
+}
+
 }  // namespace
 }  // namespace sconce
