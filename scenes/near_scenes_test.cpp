@@ -2,6 +2,8 @@
 // The lamps of the virtual bench, as light fields, and the rooms.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "luminaires.h"
 #include "measure/field.h"
 #include "measure/virtual_bench.h"
@@ -46,6 +48,44 @@ TEST(NearScenes, LampsHaveThePapersGrids) {
     EXPECT_GT(m.kept, 0.3 * c.lumens) << c.scene.name;
     EXPECT_LT(m.kept + m.lost, c.lumens) << c.scene.name;
   }
+}
+
+/// What a wall gets, as wide as the beam, mean 1. @param scale  multiplies the width
+std::vector<double> pattern(const NearLamp& lamp, double distance, double scale) {
+  constexpr int kCells = 24;
+  const double width = scale * (0.02 + 0.8 * distance);
+  std::vector<double> out;
+  double sum = 0;
+  for (int i = 0; i < kCells * kCells; ++i) {
+    const glm::dvec2 at = width * ((glm::dvec2(i % kCells, i / kCells) + 0.5) / double{kCells} - 0.5);
+    out.push_back(lamp.approximate(Vec3(Vec2(at), static_cast<float>(-distance)), Vec3(0, 0, 1)));
+    sum += out.back() / (kCells * kCells);
+  }
+  for (double& v : out) v /= sum;
+  return out;
+}
+
+/// Relative RMS of the difference of the patterns at two distances, with the other at the scale that fits
+/// best.
+double change(const NearLamp& lamp, double near, double far) {
+  const std::vector<double> a = pattern(lamp, near, 1);
+  double least = 1e9;
+  for (double scale = 0.5; scale < 2; scale *= 1.05) {
+    const std::vector<double> b = pattern(lamp, far, scale);
+    double squares = 0, all = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) squares += std::pow(a[i] - b[i], 2), all += a[i] * a[i];
+    least = std::min(least, std::sqrt(squares / all));
+  }
+  return least;
+}
+
+// The paper's Figure 6: near the torch no scaling turns the pattern on one wall into that on another; far
+// away one does.
+TEST(NearScenes, NearPatternsChangeBeyondScaling) {
+  const NearLamp lamp(field_of(make_torch(), 0.005, 30).field);
+  EXPECT_GT(change(lamp, 0.04, 0.16), 0.2);
+  EXPECT_GT(change(lamp, 0.04, 0.64), 0.2);
+  EXPECT_LT(change(lamp, 5, 10), 0.03);
 }
 
 TEST(NearScenes, RoomsHaveThePapersSizes) {

@@ -16,11 +16,13 @@
 #include "process.h"
 #include "relight/moved_lamps.h"
 #include "small_scenes.h"
+#include "spots.h"
 
 namespace sconce {
 namespace {
 
 using test::run_sconce;
+using test::spots;
 
 constexpr double kPiD = 3.14159265358979323846;
 
@@ -94,24 +96,6 @@ TEST(LuminaireBake, LuxOnTheFloor) {
     const double candela = 0.5 * intensity_at(lamp, std::fmod(c + 720, 360), std::acos(cosine) * 180 / kPiD);
     EXPECT_NEAR(floor.lux(x, z) / (candela * cosine / d2), 1, 2e-3) << x << " " << z;
   }
-}
-
-/// Filters of 10 mm, each a soft spot; those to the right shine further to the right, so that the pattern
-/// changes with distance.
-LightField spots() {
-  LightField field = make_light_field(NearBasis::bell, Vec2(-0.01f), Vec2(0.01f), 0.01, 0.25, 0.25, 48);
-  for (int n = 0; n < field.rows; ++n)
-    for (int m = 0; m < field.columns; ++m)
-      for (int t = 0; t < 48; ++t)
-        for (int s = 0; s < 48; ++s) {
-          const glm::dvec2 st = field.corner + field.pixel * (glm::dvec2(s, t) + 0.5),
-                           middle = 4.0 * field.center(m, n);
-          const double d2 = glm::dot(st - middle, st - middle);
-          const std::size_t term = static_cast<std::size_t>(n * field.columns + m);
-          field.irradiance[term * field.pixels() + static_cast<std::size_t>(48 * t + s)] =
-              static_cast<float>((m == 4 ? -100 : 1000) * std::exp(-d2 / (0.2 * 0.2)));
-        }
-  return field;
 }
 
 // A light field baked into a group is on the floor what `luminaire render` throws onto a wall, whoever

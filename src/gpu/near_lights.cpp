@@ -149,6 +149,10 @@ NearLights::NearLights(const Context& context, const Geometry& geometry, const B
 
 NearLights::~NearLights() = default;
 
+void NearLights::move(std::size_t i, const Vec3& position, const Mat3& frame) {
+  lamps_[i].position = position, lamps_[i].frame = frame, lamps_[i].drawn = false;
+}
+
 void NearLights::use(const Program& program, const Lamp& lamp) const {
   const LightField& grid = lamp.field->grid;
   program.use();

@@ -31,6 +31,9 @@ class NearLights : public AddedLight {
              std::span<const std::pair<std::size_t, Rgb>> chosen, const NearLightParams& params);
   ~NearLights() override;
 
+  /// Moves the i-th of the light fields; its maps are drawn anew.
+  void move(std::size_t i, const Vec3& position, const Mat3& frame);
+
   /// Adds albedo x illuminance of each slot's points, their mean, lm/m2.
   void light_cloud(const Buffer& points, uint32_t slots, uint32_t points_per_slot, const Buffer& exitance);
   void add(const SeenSurfaces& seen, const Texture& picture) override;
