@@ -31,13 +31,14 @@ struct Recorder {
   const Tracer& tracer;
   std::vector<Recorded>& rays;
 
-  Hit closest(const Ray& ray) const {
+  template <class Random>
+  Passage follow(const Ray& ray, Random&& random) const {
     rays.push_back({ray, false});
-    return tracer.closest(ray);
+    return tracer.follow(ray, random);
   }
-  bool occluded(const Ray& ray) const {
+  Rgb transmittance(const Ray& ray) const {
     rays.push_back({ray, true});
-    return tracer.occluded(ray);
+    return tracer.transmittance(ray);
   }
 };
 

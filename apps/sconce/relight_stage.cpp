@@ -77,6 +77,7 @@ class GlRelightStage : public RelightStage {
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
              const PictureParams& params, const Progress& progress) override {
     if (params.reflections > 0 && job_.view.scene().has_mirrors()) progress.warn(kNoReflections);
+    if (job_.view.scene().has_panes()) progress.warn(kNoPanes);
     view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
     for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
       std::string line = report.file + ": NaN or infinity, painted over:";
@@ -122,7 +123,9 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
     throw UsageError("option '--device'", "light shaders need OpenGL", "gl, auto");
   for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
-  const bool traced = device.name == "auto" && device.reflections && job.view.scene().has_mirrors();
+  const Scene& scene = job.view.scene();
+  const bool traced =
+      device.name == "auto" && ((device.reflections && scene.has_mirrors()) || scene.has_panes());
   if (auto context = open_context(!job.shaders.empty() ? "gl" : traced ? "cpu" : device.name)) {
     try {
       std::vector<gpu::LampShader> all =

@@ -96,6 +96,7 @@ class GlStage : public Stage {
             const PictureParams& params, const Progress& progress) override {
     check_pages(package_->manifest(), mix, pages);
     if (params.reflections > 0 && scene().has_mirrors()) progress.warn(kNoReflections);
+    if (scene().has_panes()) progress.warn(kNoPanes);
     const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
     view_.draw(camera, mix.weights, *light, params, progress);
   }
@@ -131,7 +132,10 @@ std::unique_ptr<Stage> make_stage(const Package& package, const std::string& dev
                                   bool reflections) {
   if (device == "software") return std::make_unique<SoftwareStage>(package);
   auto context = open_context(device);
-  if (context && device == "auto" && reflections && package.scene().has_mirrors()) context.reset();
+  if (context && device == "auto") {
+    const Scene scene = package.scene();
+    if ((reflections && scene.has_mirrors()) || scene.has_panes()) context.reset();
+  }
   if (context) return std::make_unique<GlStage>(package, std::move(context), tier);
   return std::make_unique<CpuStage>(package);
 }

@@ -18,7 +18,9 @@ bool shows_mirrors(LookKind look) {
 void Viewer::follow_mirrors() {
   Canvas& canvas = *state_.canvas;
   const Opened& opened = *state_.opened;
-  const bool wanted = state_.reflections && shows_mirrors(state_.look) && opened.rays.scene().has_mirrors();
+  const Scene& scene = opened.rays.scene();
+  const bool wanted =
+      state_.reflections && shows_mirrors(state_.look) && (scene.has_mirrors() || scene.has_panes());
   if (!wanted || canvas.version() != mirrored_) mirroring_.stop();
   if (!wanted) {
     if (mirrored_ != 0) canvas.draw_anew();

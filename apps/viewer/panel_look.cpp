@@ -90,7 +90,7 @@ void Viewer::look_panel() {
   }
 
   if (state_.sheet) return;
-  if (state_.opened->rays.scene().has_mirrors()) {
+  if (const Scene& scene = state_.opened->rays.scene(); scene.has_mirrors() || scene.has_panes()) {
     ImGui::Checkbox("reflections at rest", &state_.reflections);
     tip("what mirrors, metals and glossy surfaces show, by rays, as soon as nothing moves");
   }

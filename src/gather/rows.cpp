@@ -31,19 +31,22 @@ class RowGatherer {
     std::fill(once_.begin(), once_.end(), 0.0);
     met_.clear();
     for (uint32_t r = 0; r < rays; ++r) {
-      const auto sample = follow_row_ray(
+      const auto end = follow_row_ray(
           world_, tracer_, cloud_, cloud_.point(i, footprint, sobol_pair(r, 0, stream)), r, stream,
           [&](const SurfacePoint& at, uint32_t cell, uint32_t step, const Rgb& throughput) {
             if (!once_.empty()) add_direct(at, cell, mix32(stream, r) ^ step, throughput);
           });
-      if (sample) met_.push_back(*sample);
+      if (end) met_.push_back(*end);
     }
     for (std::size_t c = 0; c < once.size(); ++c) once[c] = static_cast<float>(once_[c] / rays);
-    std::sort(met_.begin(), met_.end());
+    std::stable_sort(met_.begin(), met_.end(),
+                     [](const RowEnd& a, const RowEnd& b) { return a.sample < b.sample; });
     for (std::size_t k = 0; k < met_.size();) {
       std::size_t end = k;
-      while (end < met_.size() && met_[end] == met_[k]) ++end;
-      rows.columns.push_back(met_[k]);
+      Rgb tint;
+      for (; end < met_.size() && met_[end].sample == met_[k].sample; ++end) tint += met_[end].tint;
+      rows.columns.push_back(met_[k].sample);
+      if (tracer_.has_panes()) rows.tints.push_back(tint / static_cast<float>(end - k));
       rows.counts.push_back(static_cast<uint16_t>(end - k));
       k = end;
     }
@@ -72,7 +75,7 @@ class RowGatherer {
   std::span<const float> on_cells_;
   DirectAtPoint at_point_;
   std::vector<double> sums_, once_;
-  std::vector<uint32_t> met_;
+  std::vector<RowEnd> met_;
 };
 
 }  // namespace
@@ -103,6 +106,7 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
         put_span<uint64_t>(bytes, part.first);
         put_span<uint32_t>(bytes, part.columns);
         put_span<uint16_t>(bytes, part.counts);
+        put_span<Rgb>(bytes, part.tints);
       },
       [&](std::size_t block, std::string_view& bytes) {
         SparseRows& part = parts[block];
@@ -112,6 +116,8 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
         part.counts.resize(part.first.back());
         take_span<uint32_t>(bytes, part.columns);
         take_span<uint16_t>(bytes, part.counts);
+        if (tracer.has_panes()) part.tints.resize(part.first.back());
+        take_span<Rgb>(bytes, part.tints);
       });
   ranks.share(std::span(result.once), width * kBlock);
   SparseRows& rows = result.rows;
@@ -120,6 +126,7 @@ Gathered gather(const World& world, const Tracer& tracer, const GatherCloud& clo
     for (std::size_t i = 1; i < part.first.size(); ++i) rows.first.push_back(base + part.first[i]);
     rows.columns.insert(rows.columns.end(), part.columns.begin(), part.columns.end());
     rows.counts.insert(rows.counts.end(), part.counts.begin(), part.counts.end());
+    rows.tints.insert(rows.tints.end(), part.tints.begin(), part.tints.end());
     part = {};
   }
   return result;

@@ -24,7 +24,7 @@ class Visits {
   /// Follows a ray to its first hit and on to a second; whole numbers, so that any order gives the same sums.
   void follow(Ray ray, Sampler& sampler) {
     for (const uint32_t weight : {kFirst, kSecond}) {
-      const Hit hit = tracer_.closest(ray);
+      const Hit hit = tracer_.follow(ray, [&] { return sampler.next().x; }).hit;
       if (!hit) return;
       const uint32_t side = side_index(hit.triangle, hit.back);
       if (!parts_.reflects(side)) return;

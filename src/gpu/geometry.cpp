@@ -58,7 +58,8 @@ std::vector<float> decode_srgb(const std::vector<unsigned char>& rgba) {
 
 Vertex vertex(const ShownScene& shown, std::size_t triangle, std::size_t corner) {
   const World& world = shown.world;
-  const Vec3 &normal = world.normals[world.triangles[triangle].v[corner]], &face = world.face_normals[triangle];
+  const Vec3 &normal = world.normals[world.triangles[triangle].v[corner]],
+             &face = world.face_normals[triangle];
   return {surface_vertex(shown, triangle, corner), pack_normal(normal == Vec3(0) ? face : normal),
           pack_normal(face)};
 }
@@ -188,6 +189,9 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
     surface.set("metallic", m.metallic);
     surface.set("emission", m.emission);
     surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
+    const bool pane = shown_->scene.passes(m);
+    surface.set("blends", pane && m.alpha_mode == Material::Alpha::blend ? 1 : 0);
+    surface.set("transmission", pane ? m.transmission * (1 - m.metallic) : 0.0f);
     surface.set("double_sided", m.double_sided ? 1 : 0);
     glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
   }
@@ -197,6 +201,7 @@ void Geometry::draw_shapes(const Program& shader) const {
   glBindVertexArray(layout_);
   shader.set("base_map", 0);
   for (const Batch& batch : batches_) {
+    if (shown_->scene.passes(shown_->scene[batch.material])) continue;  // panes cast no shadow
     set_base(shader, shown_->scene[batch.material]);
     glDrawArrays(GL_TRIANGLES, batch.first, batch.count);
   }

@@ -5,7 +5,8 @@
 uniform sampler2D base_map, metallic_map, emission_map, normal_map;
 uniform vec3 base_color, emission, weight;
 uniform float alpha, alpha_cutoff, metallic;
-uniform bool double_sided, has_normal_map;
+uniform bool double_sided, has_normal_map, blends;
+uniform float transmission, screen;  // of the sample: shifts the screen that panes are drawn by
 uniform float normal_scale;
 uniform int look;        // gpu/view.h
 uniform vec2 page_size;  // texels of a lightmap page
@@ -54,9 +55,18 @@ vec3 charts(vec2 uv, int page) {
   return hue * (mod(square.x + square.y, 2.0) < 0.5 ? 0.25 : 0.6);
 }
 
+// Panes are a screen of pixels, as dense as they are opaque, and have no colour for what is behind. Different
+// in every sample and at every depth, so that samples and panes in a row add up.
+bool passes(float base_alpha) {
+  float clear = blends ? 1.0 - base_alpha : 0.0;
+  float share = clear + (1.0 - clear) * transmission;
+  vec2 at = gl_FragCoord.xy + 1e4 * fract(screen + 1e3 * gl_FragCoord.z);
+  return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715)))) < share;
+}
+
 void main() {
   vec4 base = texture(base_map, base_uv) * vec4(base_color, alpha);
-  if (base.a < alpha_cutoff) discard;
+  if (base.a < alpha_cutoff || passes(base.a)) discard;
   vec3 albedo = base.rgb * (1.0 - metallic * texture(metallic_map, metallic_uv).b);
   int page = gl_FrontFacing ? front_page : back_page;
   vec3 offset = gl_FrontFacing ? normal_offset() : -normal_offset();

@@ -160,6 +160,7 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     glEnable(GL_DEPTH_TEST);
     surface.use();
     surface.set("shift", shift);
+    surface.set("screen", 0.618034f * static_cast<float>(s));
     light.bind(surface, Geometry::kUnits);  // added light has used its units
     geometry_.draw(surface, weights);
     glDisable(GL_DEPTH_TEST);

@@ -86,9 +86,11 @@ void AssimpMaterials::add(const aiMaterial& m) {
   out.base_color = color_of(m, AI_MATKEY_COLOR_DIFFUSE, Rgb(0.8f));
   out.emission = color_of(m, AI_MATKEY_COLOR_EMISSIVE, Rgb(0));
   out.alpha = number_of(m, AI_MATKEY_OPACITY, 1);
-  if (out.alpha < 1) {
-    out.alpha_mode = Material::Alpha::blend;
-    progress_.warn(file_.string() + ": material '" + out.name + "' is transparent; it is treated as opaque");
+  if (out.alpha < 1) out.alpha_mode = Material::Alpha::blend;
+  if (out.alpha <= 0) {  // mostly a share of transparency taken for one of opacity
+    out.alpha = 1, out.alpha_mode = Material::Alpha::opaque;
+    progress_.warn(file_.string() + ": material '" + out.name +
+                   "' would be invisible; it is treated as opaque");
   }
   const auto slot = [&](aiTextureType type, TextureUse& use) {
     const std::string file = texture_name(m, type);

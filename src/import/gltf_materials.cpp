@@ -40,6 +40,15 @@ TextureUse texture_use(GltfTextures& textures, const tinygltf::TextureInfo& info
   return texture_use(textures, info.index, info.texCoord, extension(info.extensions, kTransform), place);
 }
 
+/// A textureInfo within an extension.
+TextureUse extension_texture(const tinygltf::Value& info, GltfTextures& textures, const std::string& place) {
+  if (!info.IsObject()) return {};
+  const tinygltf::Value& extensions = info.Get("extensions");
+  const bool moved = extensions.Has(kTransform) && extensions.Get(kTransform).IsObject();
+  return texture_use(textures, static_cast<int>(number_of(info, "index", -1)), number_of(info, "texCoord", 0),
+                     moved ? &extensions.Get(kTransform) : nullptr, place);
+}
+
 /// KHR_materials_pbrSpecularGlossiness: its diffuse part.
 void read_diffuse(const tinygltf::Value& e, GltfTextures& textures, const std::string& place, Material& out) {
   out.metallic = 0, out.roughness = 1;
@@ -53,13 +62,16 @@ void read_diffuse(const tinygltf::Value& e, GltfTextures& textures, const std::s
     out.alpha = at(3);
   }
   if (!e.Has("diffuseTexture") || !e.Get("diffuseTexture").IsObject()) return;
-  const tinygltf::Value& info = e.Get("diffuseTexture");
-  const tinygltf::Value& extensions = info.Get("extensions");
-  const bool moved = extensions.Has(kTransform) && extensions.Get(kTransform).IsObject();
-  out.base_color_texture =
-      texture_use(textures, static_cast<int>(number_of(info, "index", -1)), number_of(info, "texCoord", 0),
-                  moved ? &extensions.Get(kTransform) : nullptr, place);
+  out.base_color_texture = extension_texture(e.Get("diffuseTexture"), textures, place);
   if (!out.base_color_texture.texture) out.base_color *= kMissingTextureGrey;
+}
+
+/// KHR_materials_transmission.
+void read_transmission(const tinygltf::Value& e, GltfTextures& textures, const std::string& place,
+                       Material& out) {
+  out.transmission = static_cast<float>(number_of(e, "transmissionFactor", 0));
+  if (out.transmission > 0 && e.Has("transmissionTexture"))
+    out.transmission_texture = extension_texture(e.Get("transmissionTexture"), textures, place);
 }
 
 Material read_material(const GltfSource& source, const tinygltf::Material& m, GltfTextures& textures,
@@ -80,6 +92,8 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
       texture_use(textures, pbr.metallicRoughnessTexture, place + ".metallicRoughness");
   if (const tinygltf::Value* e = extension(m.extensions, "KHR_materials_pbrSpecularGlossiness"))
     read_diffuse(*e, textures, place + ".diffuseTexture", out);
+  if (const tinygltf::Value* e = extension(m.extensions, "KHR_materials_transmission"))
+    read_transmission(*e, textures, place + ".transmissionTexture", out);
 
   if (const auto emission = numbers(source, m.emissiveFactor, 3, place + ".emissiveFactor"))
     out.emission = color(*emission);
@@ -97,7 +111,6 @@ Material read_material(const GltfSource& source, const tinygltf::Material& m, Gl
     out.alpha_mode = Material::Alpha::mask;
   } else if (m.alphaMode == "BLEND") {
     out.alpha_mode = Material::Alpha::blend;
-    progress.warn(source.path.string() + ": material '" + m.name + "' blends; it is treated as opaque");
   }
   out.alpha_cutoff = static_cast<float>(m.alphaCutoff);
   out.double_sided = m.doubleSided;

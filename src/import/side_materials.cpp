@@ -103,7 +103,7 @@ Emitters emitters(const SideContext& context, const SideTable& table) {
 
 void apply_material(const SideContext& context, const SideNode& node) {
   const SideTable table(context.path.string(), "[[material]]", node,
-                        {"match", "base_color", "metallic", "roughness", "double_sided"});
+                        {"match", "base_color", "metallic", "roughness", "transmission", "double_sided"});
   const auto glob = table.text("match");
   if (!glob) table.fail({}, "names no material", "match = \"glob\"");
   const auto base = table.color("base_color");
@@ -113,12 +113,14 @@ void apply_material(const SideContext& context, const SideNode& node) {
     if (value && *value > 1) table.fail(key, "is out of range", "0 to 1");
     return value;
   };
-  const auto metallic = share("metallic"), roughness = share("roughness");
+  const auto metallic = share("metallic"), roughness = share("roughness"),
+             transmission = share("transmission");
   for (const std::size_t i : matching(context, table, "match", *glob, material_names(context.scene))) {
     Material& m = context.scene.materials[i];
     if (base) m.base_color = *base;
     if (metallic) m.metallic = static_cast<float>(*metallic);
     if (roughness) m.roughness = static_cast<float>(*roughness);
+    if (transmission) m.transmission = static_cast<float>(*transmission);
     if (const auto sides = table.flag("double_sided")) m.double_sided = *sides;
   }
 }

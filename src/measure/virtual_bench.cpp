@@ -12,6 +12,7 @@ namespace sconce {
 
 namespace {
 
+constexpr uint32_t kPanePair = 0xfffffeffu;
 constexpr uint64_t kChunk = 1 << 14;  // rays of one lamp at a time
 
 struct Chunk {
@@ -35,7 +36,9 @@ class BenchTracer {
     Rgb flux = light.flux * (1 / static_cast<float>(count));
     float kept = 1;  // of the ray relative to what left the lamp: decides how it ends
     for (uint32_t depth = 0; depth <= static_cast<uint32_t>(params_.reflections); ++depth) {
-      const Hit hit = tracer_.closest({start, direction});
+      const auto [hit, passed] =
+          tracer_.follow({start, direction}, [&] { return pair(kPanePair - depth).x; });
+      flux *= passed, kept *= passed.max();
       if (!hit) return hanging(start, direction, luminance(flux));
       if (hit.back && !scene_[world_.materials[hit.triangle]].double_sided) break;
       const SurfacePoint at = surface_point(world_, hit);

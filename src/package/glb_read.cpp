@@ -13,6 +13,8 @@ namespace sconce {
 namespace {
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kStrength = "KHR_materials_emissive_strength";
+constexpr const char* kTransmission = "KHR_materials_transmission";
 constexpr const char* kIes = "EXT_lights_ies";
 
 uint32_t word(std::string_view bytes, std::size_t offset) {
@@ -147,8 +149,14 @@ class Reader {
     m.base_color_texture = texture_use(pbr, "baseColorTexture");
     m.metallic_roughness_texture = texture_use(pbr, "metallicRoughnessTexture");
     if (v.has("emissiveFactor")) m.emission = v.at("emissiveFactor").rgb();
-    if (v.has("extensions"))
-      m.emission *= v.at("extensions").at("KHR_materials_emissive_strength").at("emissiveStrength").real();
+    if (v.has("extensions")) {
+      const JsonValue extensions = v.at("extensions");
+      if (extensions.has(kStrength)) m.emission *= extensions.at(kStrength).at("emissiveStrength").real();
+      if (extensions.has(kTransmission)) {
+        m.transmission = extensions.at(kTransmission).at("transmissionFactor").real();
+        m.transmission_texture = texture_use(extensions.at(kTransmission), "transmissionTexture");
+      }
+    }
     m.emission_texture = texture_use(v, "emissiveTexture");
     m.normal_texture = texture_use(v, "normalTexture");
     if (v.has("normalTexture")) m.normal_scale = static_cast<float>(v.at("normalTexture").number("scale", 1));

@@ -20,6 +20,7 @@ namespace {
 constexpr const char* kLights = "KHR_lights_punctual";
 constexpr const char* kIes = "EXT_lights_ies";
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
+constexpr const char* kTransmission = "KHR_materials_transmission";
 constexpr const char* kTransform = "KHR_texture_transform";
 
 // glTF wants colours in [0,1] beside a strength. A power of two as strength loses no bit.
@@ -166,6 +167,13 @@ class Writer {
       out["alphaCutoff"] = m.alpha_cutoff;
     } else if (m.alpha_mode == Material::Alpha::blend) {
       out["alphaMode"] = "BLEND";
+    }
+    if (m.transmission > 0) {
+      extensions_.insert(kTransmission);
+      Json& transmission = out["extensions"][kTransmission];
+      transmission = Json::object({{"transmissionFactor", m.transmission}});
+      if (m.transmission_texture.texture)
+        transmission["transmissionTexture"] = texture_use(m.transmission_texture);
     }
     if (m.double_sided) out["doubleSided"] = true;
     root_["materials"].push_back(std::move(out));

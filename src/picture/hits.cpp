@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/sobol.h"
 #include "encode/half.h"
 #include "picture/render.h"
 #include "picture/seen.h"
@@ -13,6 +14,8 @@
 namespace sconce {
 
 namespace {
+
+constexpr uint32_t kPaneStream = 0x70616e65u;
 
 /// At the far edge the place is whole rather than the texel one further, so that four texels always exist.
 void set_place(CameraHits::Pixel& pixel, Vec2 uv, const CameraHits& hits) {
@@ -47,7 +50,10 @@ CameraHits View::hits(const Camera& camera, const PictureParams& params, int s,
 
   const auto meet = [&](int x, std::size_t y) {
     const Ray ray{lens.eye(), lens.direction(ray_point(params, x, static_cast<int>(y), s))};
-    const Hit hit = tracer_.closest(ray);
+    // Whether a pane or what is behind it is seen goes by chance: right over many samples.
+    const auto id = static_cast<uint32_t>(y) * static_cast<uint32_t>(params.width) + static_cast<uint32_t>(x);
+    const auto [hit, passed] = tracer_.follow(
+        ray, [&] { return sobol_pair(static_cast<uint32_t>(s), 0, mix32(id, params.seed ^ kPaneStream)).x; });
     Shade surface;
     if (hit) {
       surface = shade(scene(), world(), hit.triangle, hit.barycentric);
@@ -57,12 +63,12 @@ CameraHits View::hits(const Camera& camera, const PictureParams& params, int s,
             hits.pixels[y * static_cast<std::size_t>(params.width) + static_cast<std::size_t>(x)];
         pixel.page = static_cast<uint16_t>(side.page);
         set_place(pixel, side.at(hit.barycentric), hits);
-        const Rgb albedo = surface.receiver_albedo() * kInvPi;
+        const Rgb albedo = passed * surface.receiver_albedo() * kInvPi;
         pixel.albedo = {float_to_half(albedo.r), float_to_half(albedo.g), float_to_half(albedo.b)};
       }
     }
     for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
-      if (!shine.is_black()) shines[y].push_back({static_cast<uint32_t>(x), group, shine});
+      if (!shine.is_black()) shines[y].push_back({static_cast<uint32_t>(x), group, passed * shine});
     });
   };
   std::atomic<std::size_t> done = 0;

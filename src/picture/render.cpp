@@ -18,6 +18,7 @@ constexpr uint32_t kLobeStream = 0x6c6f6265u;
 // Where a ray meets a lobe wider than a pixel, several rays follow it: a lamp in it is small and bright.
 constexpr float kSharp = 0.05f;  // roughness
 constexpr uint32_t kLobeRays = 4;
+constexpr int kMostPanes = 64;  // in a row; those behind are opaque
 
 /// Bilinear between texel centres, clamped at the page's edges.
 Rgb bilinear(const Image& page, Vec2 uv) {
@@ -44,14 +45,15 @@ Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {
   return {std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)};
 }
 
-Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Sight& sight, int met) const {
+Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Rgb& through,
+                    const Sight& sight, int met) const {
   const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
   SurfacePoint at = surface_point(world(), hit);
   Rgb light = illuminance(hit, sight.mix);
   if (lit && sight.added) light += sight.added(at);
-  const Rgb diffuse = surface.receiver_albedo() * light * kInvPi;
+  const Rgb diffuse = surface.receiver_albedo() * light * kInvPi + through;
   if (!lit || sight.reflections == 0 || !mirrors(surface)) return diffuse;
-  if (met == sight.reflections) return surface.base_color * light * kInvPi;
+  if (met == sight.reflections) return surface.base_color * light * kInvPi + through;
 
   const Vec3 mapped = normal_offset(scene(), world(), hit.triangle, hit.barycentric);
   at.shading_normal += hit.back ? -mapped : mapped;
@@ -68,13 +70,27 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
   return sum / static_cast<float>(rays);
 }
 
-View::Seen View::look(const Ray& ray, const Sight& sight, int met) const {
+View::Seen View::look(const Ray& ray, const Sight& sight, int met, int panes) const {
   Seen seen;
   const Hit hit = tracer_.closest(ray);
   Shade surface;
   if (hit) {
     surface = shade(scene(), world(), hit.triangle, hit.barycentric);
-    seen.radiance = reflected(ray, hit, surface, sight, met);
+    const Passing passing = panes < kMostPanes ? tracer_.passing(hit) : Passing();
+    if (passing.share() > 0) {
+      const Seen behind = look(tracer_.beyond(ray, hit), sight, met, panes + 1);
+      seen.emitter = behind.emitter;
+      seen.radiance = passing.clear * behind.radiance;
+      if (passing.clear < 1) {
+        Shade rest = surface;
+        rest.base_color *= 1 - passing.transmitted;
+        seen.radiance +=
+            (1 - passing.clear) *
+            reflected(ray, hit, rest, passing.transmitted * passing.base_color * behind.radiance, sight, met);
+      }
+    } else {
+      seen.radiance = reflected(ray, hit, surface, Rgb(0.0f), sight, met);
+    }
   }
   for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
     seen.emitter = seen.emitter || !shine.is_black();

@@ -28,9 +28,10 @@ class View {
 
   /// Linear picture, luminance in cd/m2 per channel, before exposure and tone curve: sum_g w_g (eps_g +
   /// rho/pi E_g). Backs are black, but for those with a lightmap of their own (twins) and for what
-  /// double-sided materials emit. Rays that leave the scene see its skies. With params.reflections surfaces
-  /// also show what they mirror (picture/gloss.h), lit by the same mix; the last in a row shows all that it
-  /// reflects without direction, rho/pi E. The same bits with any number of threads.
+  /// double-sided materials emit. What panes let through is seen behind them. Rays that leave the scene see
+  /// its skies. With params.reflections surfaces also show what they mirror (picture/gloss.h), lit by the
+  /// same mix; the last in a row shows all that it reflects without direction, rho/pi E. The same bits with
+  /// any number of threads.
   /// @param pages       mix_pages() of the same mix
   /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky)
   /// directly, one channel
@@ -48,6 +49,14 @@ class View {
   /// @throws as render()
   CameraHits hits(const Camera& camera, const PictureParams& params, int s = 0,
                   const Progress& progress = {}) const;
+
+  /// What surfaces are seen: albedo.R, G, B and normal.X, Y, Z (in the world, towards the eye), means over
+  /// a pixel's samples; at its centre position.X, Y, Z (in the world, m), depth.Z (m, along the camera's
+  /// axis; kNothing where nothing is) and id.ID (1 + number of the instance; 0 where nothing is). Panes are
+  /// surfaces.
+  /// @throws as render()
+  Image surfaces(const Camera& camera, const PictureParams& params, const Progress& progress = {}) const;
+  static constexpr float kNothing = 1e10f;
 
   const ShownScene& shown() const { return shown_; }
   const Scene& scene() const { return shown_.scene; }  ///< without twins, see ShownScene
@@ -80,9 +89,12 @@ class View {
     int reflections;
     uint32_t stream, index;  ///< random numbers of the mirrors' lobes
   };
-  /// @param met  mirrors behind this ray
-  Seen look(const Ray& ray, const Sight& sight, int met = 0) const;
-  Rgb reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Sight& sight, int met) const;
+  /// @param met    mirrors behind this ray
+  /// @param panes  on the way since the last of them
+  Seen look(const Ray& ray, const Sight& sight, int met = 0, int panes = 0) const;
+  /// @param through  what the surface transmits
+  Rgb reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Rgb& through, const Sight& sight,
+                int met) const;
   Rgb illuminance(const Hit& hit, const Mixed& mix) const;
   Camera eye_height_camera() const;
 

@@ -47,7 +47,7 @@ float BurialTest::suspicion(const SurfacePoint& point, Vec2 u, float near) const
   const Hit hit =
       tracer_.closest({offset_origin(point.position, point.geometric_normal, direction), direction});
   if (!hit) return 0;
-  if (hit.back && atlas_.reached_back[hit.triangle] == 0) return 1;
+  if (hit.back && atlas_.reached_back[hit.triangle] == 0 && !(tracer_.passing(hit).share() > 0)) return 1;
   return hit.distance < near ? kNearSuspicion : 0.0f;
 }
 

@@ -204,7 +204,7 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
       }
       if (!(glm::dot(ray.direction, ray.direction) > 0.5f)) continue;
       for (int vertex = 0; vertex < kVertices; ++vertex) {
-        const Hit hit = tracer.closest(ray);
+        const Hit hit = tracer.follow(ray, [&] { return sampler.next().x; }).hit;
         if (!hit) break;
         const Vec3 position = world.position(hit.triangle, hit.barycentric);
         vertices[std::size_t{path} * kVertices + static_cast<std::size_t>(vertex)] = {

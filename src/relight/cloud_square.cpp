@@ -21,10 +21,9 @@ std::vector<uint8_t> seen_samples(const World& world, const Tracer& tracer, cons
     parallel_for(count, 256, [&](std::size_t i) {
       const uint32_t stream = mix32(mix32(seed, salt), static_cast<uint32_t>(i));
       for (uint32_t r = 0; r < each; ++r) {
-        const auto sample =
-            follow_row_ray(world, tracer, cloud, point(i, sobol_pair(r, 0, stream)), r, stream,
-                           [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
-        if (sample) std::atomic_ref(seen[*sample]).store(1, std::memory_order_relaxed);
+        const auto end = follow_row_ray(world, tracer, cloud, point(i, sobol_pair(r, 0, stream)), r, stream,
+                                        [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
+        if (end) std::atomic_ref(seen[end->sample]).store(1, std::memory_order_relaxed);
       }
     });
   };

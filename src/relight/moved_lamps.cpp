@@ -100,9 +100,10 @@ Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t in
     const float cosine = glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) continue;
     const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
-    if (end > 0 && tracer_.occluded({start, light.direction, end})) continue;
+    const Rgb passed = end > 0 ? tracer_.transmittance({start, light.direction, end}) : Rgb(1.0f);
+    if (passed.is_black()) continue;
     const float density = light.delta ? 1 : light.pdf + (chosen.met ? cosine * kInvPi : 0);
-    sum += chosen.weight * light.radiance * (cosine / density);
+    sum += chosen.weight * passed * light.radiance * (cosine / density);
   }
   if (!met_.empty()) sum += met(at, start, stream, index);
   return sum;
@@ -114,19 +115,21 @@ Rgb MovedLamps::met(const SurfacePoint& at, const Vec3& start, uint32_t stream, 
   const float cosine = glm::dot(direction, at.shading_normal);
   if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return {};
   const auto share = [&](float density) { return cosine / (density + cosine * kInvPi); };
-  const Hit hit = tracer_.closest({start, direction});
+  const auto [hit, passed] =
+      tracer_.follow({start, direction}, [&] { return sobol_pair(index, 1, mix32(stream, kMetStream)).x; });
   Rgb sum;
   if (!hit) {
     for (const uint32_t sky : lamps_.skies())
       if (!met_[sky].is_black())
-        sum += met_[sky] * lamps_.sky_radiance(sky, direction) * share(lamps_.sky_pdf(sky, direction));
+        sum +=
+            met_[sky] * passed * lamps_.sky_radiance(sky, direction) * share(lamps_.sky_pdf(sky, direction));
     return sum;
   }
   const int lamp = lamps_.lamp_of(hit.triangle);
   if (lamp < 0 || met_[static_cast<std::size_t>(lamp)].is_black()) return {};
   const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
   if (emission.is_black()) return {};
-  return met_[static_cast<std::size_t>(lamp)] * emission *
+  return met_[static_cast<std::size_t>(lamp)] * passed * emission *
          share(lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction));
 }
 
@@ -145,7 +148,9 @@ std::vector<std::string> MovedLamps::buried() const {
       const Hit hit = tracer_.closest(
           {*place, Vec3(radius * std::cos(2 * kPi * u.y), radius * std::sin(2 * kPi * u.y), z)});
       const bool own = hit && lamps_.lamp_of(hit.triangle) == static_cast<int>(chosen.lamp);
-      backs += hit && hit.back && !own && !scene_[world_.materials[hit.triangle]].double_sided ? 1 : 0;
+      const bool open =
+          hit && (scene_[world_.materials[hit.triangle]].double_sided || tracer_.passing(hit).share() > 0);
+      backs += hit && hit.back && !own && !open ? 1 : 0;
     }
     if (2 * backs > kRays) names.push_back(lamp.name);
   }

@@ -29,13 +29,17 @@ class RowMaker {
   void start() { met_.clear(); }
   /// Sends ray r of the row, and through what lets it through.
   void shoot(const SurfacePoint& from, uint32_t r, uint32_t stream) {
-    constexpr uint32_t kMostPanes = 8, kPanePair = 32;  // pairs that no step of a ray uses
+    constexpr uint32_t kMostPanes = 8, kPanePair = 32, kTintPair = 48;  // pairs that no step of a ray uses
     auto ray = row_ray(from, r, 0, stream);
     for (uint32_t pane = 0; ray && pane <= kMostPanes; ++pane) {
-      const Hit hit = traced_.tracer.closest(*ray);
-      const auto sample = follow_row_hit(traced_.world, traced_.tracer, cloud_, hit, r, stream,
-                                         [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
-      if (sample) met_.push_back(*sample);
+      const Passage met = follow_row_panes(traced_.tracer, *ray, r, 0, stream ^ pane);
+      const Hit& hit = met.hit;
+      const auto end = follow_row_hit(traced_.world, traced_.tracer, cloud_, met, r, stream,
+                                      [](const SurfacePoint&, uint32_t, uint32_t, const Rgb&) {});
+      // Rows are without colour: what is tinted counts by its mean.
+      if (end && (end->tint == Rgb(1) ||
+                  sobol_pair(r, kTintPair + pane, stream).x < (end->tint.r + end->tint.g + end->tint.b) / 3))
+        met_.push_back(end->sample);
       if (!hit || transmission_.empty() ||
           !(sobol_pair(r, kPanePair + pane, stream).x <
             transmission_[traced_.world.materials[hit.triangle].value]))

@@ -54,6 +54,8 @@ struct Material {
   float normal_scale = 1;     ///< of x and y
   enum class Alpha : uint8_t { opaque, mask, blend } alpha_mode = Alpha::opaque;
   float alpha_cutoff = 0.5f;
+  float transmission = 0;  ///< share of the light on the surface that goes straight through, in base colour
+  TextureUse transmission_texture;  ///< in red
   bool double_sided = false;
 
   bool emits() const { return !emission.is_black(); }
@@ -172,6 +174,17 @@ struct Scene {
   }
   bool has_mirrors() const {
     return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.mirrors(); });
+  }
+  /// Whether light may pass straight through: blends with some alpha below 1, or transmits. Lamps do not.
+  bool passes(const Material& m) const {
+    const auto holes = [&](const TextureUse& use) {
+      return use.texture.valid() && (*this)[use.texture].pixels.channels % 2 == 0;
+    };
+    return !m.emits() && (m.transmission > 0 || (m.alpha_mode == Material::Alpha::blend &&
+                                                 (m.alpha < 1 || holes(m.base_color_texture))));
+  }
+  bool has_panes() const {
+    return std::any_of(materials.begin(), materials.end(), [this](const Material& m) { return passes(m); });
   }
   bool emits(const Instance& instance) const { return (*this)[(*this)[instance.mesh].material].emits(); }
 };

@@ -105,6 +105,7 @@ Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 b
   result.alpha = material.alpha;
   result.metallic = material.metallic;
   result.roughness = material.roughness;
+  result.transmission = material.transmission;
   result.emission = material.emission;
   const auto look_up = [&](const TextureUse& use, bool srgb) {
     return sample_texture(scene, use, world.texcoord(triangle, barycentric, use.texcoord), srgb);
@@ -119,9 +120,16 @@ Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 b
     result.metallic *= texel.rgb.b;
     result.roughness *= texel.rgb.g;
   }
+  if (material.transmission_texture.texture.valid())
+    result.transmission *= look_up(material.transmission_texture, false).rgb.r;
   if (material.emits() && material.emission_texture.texture.valid())
     result.emission *= look_up(material.emission_texture, true).rgb;
   return result;
+}
+
+Passing passing(const Material& material, const Shade& surface) {
+  return {material.alpha_mode == Material::Alpha::blend ? 1 - surface.alpha : 0.0f,
+          surface.transmission * (1 - surface.metallic), surface.base_color};
 }
 
 }  // namespace sconce

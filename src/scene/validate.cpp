@@ -68,8 +68,8 @@ class Validator {
 
   void check(Material& m) {
     const std::string what = "material " + quoted(m.name);
-    for (TextureUse* use :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
+    for (TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture,
+                            &m.normal_texture, &m.transmission_texture}) {
       if (use->texture)
         check_id(use->texture, scene_.textures.size(), scene_.name + ": " + what + ": texture");
       if (!finite(use->offset) || !finite(use->scale) || !finite(use->rotation)) {
@@ -88,12 +88,14 @@ class Validator {
     clamp(m.metallic, "metallic");
     clamp(m.roughness, "roughness");
     clamp(m.alpha, "alpha");
+    clamp(m.transmission, "transmission");
     if (!(m.alpha_cutoff >= 0)) m.alpha_cutoff = 0.5f;
     if (m.base_color.max() > 1) {
       warn(what + " reflects more than it gets; base colour clamped to 1");
       for (float* c : {&m.base_color.r, &m.base_color.g, &m.base_color.b}) *c = std::min(*c, 1.0f);
     }
-    if (!m.base_color_texture.texture && !m.emits() && m.base_color.max() > kBrightAlbedo)
+    if (!m.base_color_texture.texture && !m.emits() && !scene_.passes(m) &&
+        m.base_color.max() > kBrightAlbedo)
       bright_.push_back(quoted(m.name));
   }
 
@@ -153,8 +155,8 @@ class Validator {
     for (const Instance& instance : scene_.instances) {
       const Mesh& mesh = scene_[instance.mesh];
       const Material& m = scene_[mesh.material];
-      for (const TextureUse* use :
-           {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
+      for (const TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture,
+                                    &m.normal_texture, &m.transmission_texture}) {
         if (!use->texture ||
             (use->texcoord < mesh.texcoords.size() && !mesh.texcoords[use->texcoord].empty()))
           continue;

@@ -54,9 +54,21 @@ Vec3 normal_offset(const Scene& scene, const World& world, std::size_t triangle,
 /// (contract.md).
 struct Shade {
   Rgb base_color, emission;
-  float alpha = 1, metallic = 0, roughness = 1;
+  float alpha = 1, metallic = 0, roughness = 1, transmission = 0;
   Rgb receiver_albedo() const { return base_color * (1.0f - metallic); }
 };
 Shade shade(const Scene& scene, const World& world, std::size_t triangle, Vec2 barycentric);
+
+/// What goes straight through a surface, seen and unseen (docs/adr/0036-panes.md).
+struct Passing {
+  float clear = 0;        ///< share of the place where there is no surface: passes as it is
+  float transmitted = 0;  ///< of the light on the surface: passes in its base colour
+  Rgb base_color;
+
+  float share() const { return clear + (1 - clear) * transmitted; }
+  Rgb rgb() const { return Rgb(clear) + (1 - clear) * transmitted * base_color; }
+};
+/// @param surface  shade() of a material that passes (Scene::passes)
+Passing passing(const Material& material, const Shade& surface);
 
 }  // namespace sconce

@@ -27,9 +27,11 @@ void add(ContentHash& hash, const Scene& scene, const TextureUse& use) {
 std::string surface(const Scene& scene, const Material& m) {
   ContentHash hash;
   hash.value(m.base_color).value(m.alpha).value(m.metallic).value(m.roughness);
+  hash.value(m.transmission);
   hash.value(m.alpha_mode).value(m.alpha_cutoff).value(m.double_sided);
   add(hash, scene, m.base_color_texture);
   add(hash, scene, m.metallic_roughness_texture);
+  add(hash, scene, m.transmission_texture);
   return hash.hex();
 }
 

@@ -23,7 +23,7 @@ struct NoCache {
 
 /// Estimates E_g at a point for all groups from one path: next-event estimation at every vertex, emitters met
 /// by the path's own rays, both weighted by the balance heuristic (Veach 1997). One path serves every group.
-/// @tparam Rays   has closest(Ray) and occluded(Ray)
+/// @tparam Rays   has follow() and transmittance() as Tracer
 /// @tparam Cache  NoCache, or one of the same form
 template <class Rays, class Cache = NoCache>
 class PathKernel {
@@ -70,7 +70,9 @@ class PathKernel {
       const float cosine = glm::dot(direction, at.shading_normal);
       if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
       if (depth == 0) sums.aim(direction, std::max(cosine, kGrazing));
-      const Hit hit = rays_.closest({start, direction});
+      const auto [hit, passed] = rays_.follow(
+          {start, direction}, [&] { return sobol_bits(reversed, kPanePair - depth, stream).unit().x; });
+      throughput *= passed;
       if (!hit) {
         for (const uint32_t sky : lamps_.skies()) {
           const float other = picker_.expected(sky) * lamps_.sky_pdf(sky, direction);
@@ -105,7 +107,7 @@ class PathKernel {
   }
 
  private:
-  static constexpr uint32_t kFootprintPair = 0xffffff00u;
+  static constexpr uint32_t kFootprintPair = 0xffffff00u, kPanePair = kFootprintPair - 1;
   /// g divides by the cosine that the receiver's rays are sampled with: light that comes in flatter than this
   /// (2.9 degrees) counts less in g, so that its noise stays finite. Lamps that are sampled need no such
   /// bound.
@@ -123,10 +125,11 @@ class PathKernel {
     const float cosine = glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
     const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
-    if (end > 0 && rays_.occluded({start, light.direction, end})) return;
+    const Rgb passed = end > 0 ? rays_.transmittance({start, light.direction, end}) : Rgb(1.0f);
+    if (passed.is_black()) return;
     if (first) sums.aim(light.direction, cosine);
     const float density = light.delta ? expected : expected * light.pdf + cosine * kInvPi;
-    add(sums, lamp, throughput * light.radiance * (cosine / density));
+    add(sums, lamp, throughput * passed * light.radiance * (cosine / density));
   }
 
   template <class Sums>

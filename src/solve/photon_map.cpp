@@ -13,7 +13,8 @@ namespace {
 
 constexpr float kAgree = 0.7f;  // least cosine between the normals of a photon and of the place it counts for
 constexpr float kSlab = 0.1f;   // largest distance of a photon from the place's plane, in reaches
-constexpr std::size_t kChunk = 4096;  // photons traced at a time
+constexpr uint32_t kPanePair = 0xfffffeffu;  // no landing's pair
+constexpr std::size_t kChunk = 4096;         // photons traced at a time
 
 /// Follows one photon and appends its landings.
 class PhotonTracer {
@@ -30,38 +31,51 @@ class PhotonTracer {
     const uint32_t reversed = detail::reverse_bits(index);
     const auto pair = [&](uint32_t slot) { return sobol_bits(reversed, slot, stream_).unit(); };
     const EmittedLight light = context_.lamps.emit(lamp_, pair(0), pair(1));
-    Vec3 start = offset_origin(light.position, light.normal, light.direction), direction = light.direction;
+    Ray ray{offset_origin(light.position, light.normal, light.direction), light.direction};
     Rgb weight{1.0f};  // of the photon relative to what left the lamp: decides how it ends
     Rgb flux = light.flux * share_;
-    for (uint32_t landed = 0; landed < landings_; ++landed) {
-      const Hit hit = context_.tracer.closest({start, direction});
+    uint32_t panes = 0;
+    for (uint32_t landed = 0; landed < landings_;) {
+      const Hit hit = context_.tracer.closest(ray);
       if (!hit) return;
       const Material& material = context_.scene[context_.world.materials[hit.triangle]];
-      if (hit.back && !material.double_sided) return;
-      if (landed == 0) flux *= context_.lamps.reach(lamp_, hit.distance);
+      const Rgb arriving = landed == 0 ? flux * context_.lamps.reach(lamp_, hit.distance) : flux;
       const float side = hit.back ? -1.0f : 1.0f;
       const Vec3 face = context_.world.face_normals[hit.triangle] * side;
       const Vec3 smooth = context_.world.normal(hit.triangle, hit.barycentric) * side;
       // Photons land in proportion to the cosine with the face; a layer weighs light by that with the
       // interpolated normal (Veach 1997, 5.3).
-      const float on_face = -glm::dot(direction, face), on_smooth = -glm::dot(direction, smooth);
-      if (!(on_face > 0) || !(on_smooth > 0)) return;
-      weight *= on_smooth / on_face;
+      const float on_face = -glm::dot(ray.direction, face), on_smooth = -glm::dot(ray.direction, smooth);
+      const bool lands = (!hit.back || material.double_sided) && on_face > 0 && on_smooth > 0;
+      const Vec3 position = context_.world.position(hit.triangle, hit.barycentric);
+      const Rgb landing = lands ? weight * (on_smooth / on_face) : Rgb(0.0f);
+      if (lands) {
+        Photon photon;
+        photon.position = position;
+        for (int c = 0; c < 3; ++c) photon.normal[c] = static_cast<int8_t>(std::lround(127 * face[c]));
+        photon.reflections = static_cast<uint8_t>(std::min(landed, 255u));
+        photon.flux = arriving * landing;
+        photon.group = group_;
+        out.push_back(photon);
+      }
+      // All light lands on a pane; then a share of it goes on.
+      const Passing passing = context_.tracer.passing(hit);
+      if (const float share = passing.share(); share > 0 && pair(kPanePair - panes++).x < share) {
+        weight *= passing.rgb() * (1 / share);
+        if (weight.is_black()) return;
+        ray = context_.tracer.beyond(ray, hit);
+        continue;
+      }
+      if (!lands) return;
 
-      Photon photon;
-      photon.position = context_.world.position(hit.triangle, hit.barycentric);
-      for (int c = 0; c < 3; ++c) photon.normal[c] = static_cast<int8_t>(std::lround(127 * face[c]));
-      photon.reflections = static_cast<uint8_t>(std::min(landed, 255u));
-      photon.flux = flux * weight;
-      photon.group = group_;
-      out.push_back(photon);
-
-      weight *= shade(context_.scene, context_.world, hit.triangle, hit.barycentric).base_color;
+      flux = arriving;
+      weight = landing * shade(context_.scene, context_.world, hit.triangle, hit.barycentric).base_color;
       const float survival = std::min(1.0f, weight.max());
       if (weight.is_black() || !(pair(3 + 2 * landed).x < survival)) return;
       weight *= 1 / survival;
-      direction = Frame(face).to_world(square_to_cosine(pair(2 + 2 * landed)));
-      start = offset_origin(photon.position, face, face);
+      ray = {offset_origin(position, face, face),
+             Frame(face).to_world(square_to_cosine(pair(2 + 2 * landed)))};
+      ++landed;
     }
   }
 

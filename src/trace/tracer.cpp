@@ -86,6 +86,8 @@ Tracer::Tracer(const Scene& scene, const World& world) : state_(std::make_unique
   s.add(s.triangles[0], false);
   s.add(s.triangles[1], true);
   rtcCommitScene(s.rtc);
+  panes_ = std::any_of(world.materials.begin(), world.materials.end(),
+                       [&](Id<Material> m) { return scene.passes(scene[m]); });
   if (rtcGetDeviceError(s.device) != RTC_ERROR_NONE)
     throw Error("rays", "Embree cannot build the scene (out of memory?)");
 }
@@ -98,13 +100,13 @@ namespace {
 
 bool valid(const Ray& ray) {
   const auto finite = [](const Vec3& v) { return std::isfinite(v.x + v.y + v.z); };
-  return finite(ray.origin) && finite(ray.direction) && ray.far >= 0;
+  return finite(ray.origin) && finite(ray.direction) && ray.far >= 0 && ray.near >= 0;
 }
 
 void fill(RTCRay& out, const Ray& ray) {
   out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
   out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
-  out.tnear = 0, out.tfar = ray.far;
+  out.tnear = ray.near, out.tfar = ray.far;
   out.time = 0, out.mask = 0xffffffffu, out.id = 0, out.flags = 0;
 }
 
@@ -136,6 +138,48 @@ bool Tracer::occluded(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcOccluded1(state_->rtc, &context, &query);
   return query.tfar < 0;
+}
+
+Passing Tracer::passing_pane(const Hit& hit) const {
+  const Scene& scene = *state_->scene;
+  const Material& material = scene[state_->world->materials[hit.triangle]];
+  if (!scene.passes(material)) return {};
+  return sconce::passing(material, shade(scene, *state_->world, hit.triangle, hit.barycentric));
+}
+
+Ray Tracer::beyond(const Ray& ray, const Hit& hit) const {
+  Ray rest = ray;
+  // As offset_origin() moves: by what rounding may be off there, so that no pane is met twice.
+  const Vec3 at = glm::abs(ray.origin) + hit.distance * glm::abs(ray.direction);
+  rest.near = hit.distance + std::max({at.x, at.y, at.z, 1e-2f}) * 0x1p-19f;
+  return rest;
+}
+
+Rgb Tracer::through_panes(Ray ray) const {
+  Rgb product(1.0f);
+  while (!product.is_black() && ray.near < ray.far) {
+    const Hit hit = closest(ray);
+    if (!hit) return product;
+    product *= passing_pane(hit).rgb();
+    ray = beyond(ray, hit);
+  }
+  return product;
+}
+
+Passage Tracer::onwards(Ray ray, Hit hit, float u) const {
+  Passage out;
+  for (; hit; hit = closest(ray)) {
+    const Passing pass = passing_pane(hit);
+    const float share = pass.share();
+    if (!(u < share)) {
+      out.hit = hit;
+      break;
+    }
+    u = std::min(u / share, 0x1.fffffep-1f);
+    out.factor *= pass.rgb() * (1 / share);
+    ray = beyond(ray, hit);
+  }
+  return out;
 }
 
 std::string isa() {
