@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
+#include "core/error.h"
 #include "image/io.h"
+#include "image/primaries.h"
 #include "mix_options.h"
 
 namespace fs = std::filesystem;
@@ -16,8 +18,19 @@ std::string default_output(const std::string& package, const std::string& ending
   return path.replace_extension(ending).string();
 }
 
-void write_linear(const std::string& output, Image picture, const Exposure& exposure) {
-  for (float& v : picture.data) v *= exposure.scale;
+bool is_acescg(const std::string& colorspace, bool linear) {
+  if (colorspace != "rec709" && colorspace != "acescg")
+    throw UsageError("option '--colorspace'", "unknown colour space '" + colorspace + "'", "rec709, acescg");
+  if (colorspace == "acescg" && !linear)
+    throw UsageError("option '--colorspace'", "acescg is for linear pictures", "-o FILE.exr");
+  return colorspace == "acescg";
+}
+
+void write_linear(const std::string& output, Image picture, const Exposure& exposure, bool acescg,
+                  std::size_t light) {
+  for (std::size_t i = 0; i < picture.data.size(); ++i)
+    if (i % picture.stride() < light) picture.data[i] *= exposure.scale;
+  if (acescg) to_acescg(picture);
   picture.number["whiteLuminance"] = exposure.white_luminance();
   picture.text["sconce:convention"] = "luminance in cd/m2: value * whiteLuminance, linear; row 0 is the top";
   write_exr(output, picture, PixelType::full);

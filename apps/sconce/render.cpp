@@ -9,9 +9,12 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
+#include "picture_layers.h"
 #include "picture_options.h"
 #include "picture_output.h"
+#include "picture_sequence.h"
 #include "stage.h"
+#include "tone/apply.h"
 
 namespace fs = std::filesystem;
 
@@ -29,27 +32,65 @@ struct Rendered {
   Metering metering;
 };
 
-Rendered render(const Package& package, const PictureOptions& picture, const MixOptions& settings,
-                const Preset& preset, bool metered, const Progress& progress) {
+Rendered open(const Package& package, const PictureOptions& picture, const Progress& progress) {
   Rendered out;
-  out.mix = settings.make(preset, package.manifest().groups, progress);
   out.stage = make_stage(package, picture.device, picture.tier, !picture.no_reflections);
   out.camera =
       picture.find_camera(out.stage->scene(), [&] { return out.stage->eye_height_camera(progress); });
   out.params = picture.params(out.camera);
+  return out;
+}
+
+/// @param draws  else it is only mixed and metered
+void render(Rendered& out, const Package& package, const MixOptions& settings, const Preset& preset,
+            bool metered, bool draws, const Progress& progress) {
+  out.mix = settings.make(preset, package.manifest().groups, progress);
   progress.check();
   const std::vector<Image> pages = mix_pages(package, out.mix);
   if (metered) out.metering = meter(package, out.stage->scene(), out.mix, pages);
-  out.stage->draw(out.camera, out.mix, pages, out.params, progress);
-  return out;
+  if (draws) out.stage->draw(out.camera, out.mix, pages, out.params, progress);
+}
+
+Exposure exposure_of(const Rendered& rendered, const ExposureChoice& choice, bool exposed) {
+  return exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);
+}
+
+/// What only some pictures can be.
+void check(const SequenceOptions& sequence, const MixOptions& settings, const std::string& layers,
+           const std::string& coverage, const std::string& output, const PictureOptions& picture,
+           bool linear) {
+  if (linear && picture.device == "software")
+    throw UsageError("option '--device'", "software draws no linear picture", "-o FILE.png");
+  if (sequence.given()) {
+    sequence.check(output);
+    if (picture.device == "software")
+      throw UsageError("option '--device'", "software fades no pictures", "auto, cpu, gl");
+    if (!settings.preset_file.empty() || !layers.empty() || !coverage.empty())
+      throw UsageError({}, "a sequence takes no --preset, --layers and --coverage");
+  }
+  if (layers.empty()) return;
+  parse_layers(layers);
+  if (!linear) throw UsageError("option '--layers'", "layers need OpenEXR", "-o FILE.exr");
+  if (!coverage.empty()) throw UsageError({}, "--layers and --coverage exclude each other");
+  if (picture.device != "auto" && picture.device != "cpu")
+    throw UsageError("option '--device'", picture.device + " draws no layers", "auto, cpu");
+}
+
+/// Both ends of a sequence are one place and one curve.
+void check_same(const PictureOptions& from, const PictureOptions& to) {
+  if (from.camera != to.camera)
+    throw UsageError({}, "the presets have different cameras: --camera NAME decides");
+  if (from.tone.mapper().name != to.tone.mapper().name)
+    throw UsageError({}, "the presets have different tone curves: --tone NAME decides");
 }
 
 }  // namespace
 
 int run_render(int argc, const char* const* argv) {
   const auto start = Clock::now();
-  std::string input, output, coverage;
+  std::string input, output, coverage, layers, colorspace = "rec709";
   MixOptions settings;
+  SequenceOptions sequence;
   PictureOptions picture;
   Options options("render",
                   "A picture of a package through a camera: base colour x mixed lightmap, visible emitters, "
@@ -66,19 +107,32 @@ int run_render(int argc, const char* const* argv) {
       "NAME.png)");
   options.option("--coverage", &coverage,
                  "OpenEXR of the share of each pixel that shows an emitter, for 'diff --mask'");
+  options.option("--layers", &layers,
+                 "groups,albedo,normal,position,depth,id: side by side in the OpenEXR; the groups add up to "
+                 "the picture; drawn by the CPU");
+  options.option("--colorspace", &colorspace, "of an OpenEXR: rec709, acescg");
+  sequence.declare(options);
   if (const auto code = options.parse(argc, argv)) return *code;
 
   const bool tone_given = !picture.tone.curve.empty();
-  const Preset preset = settings.preset();
-  picture.apply(preset);
-  picture.check();
   if (output.empty()) output = default_output(input, ".png");
   check_output(output, {".png", ".exr"});
   if (!coverage.empty()) check_output(coverage, {".exr"});
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
   const bool linear = lower(fs::path(output).extension().string()) == ".exr";
-  if (linear && picture.device == "software")
-    throw UsageError("option '--device'", "software draws no linear picture", "-o FILE.png");
+  const bool acescg = is_acescg(colorspace, linear);
+  check(sequence, settings, layers, coverage, output, picture, linear);
+  const Preset preset = sequence.given() ? read_named_preset(sequence.from) : settings.preset();
+  PictureOptions last = picture;  // of a sequence
+  picture.apply(preset);
+  picture.check();
+  Preset last_preset;
+  if (sequence.given()) {
+    last_preset = read_named_preset(sequence.to);
+    last.apply(last_preset);
+    last.check();
+    check_same(picture, last);
+  }
   const ToneMapper& tone = picture.tone.mapper();
   const ExposureChoice choice = picture.tone.exposure_choice();
   const bool exposed = !linear || choice.explicitly;
@@ -88,19 +142,38 @@ int run_render(int argc, const char* const* argv) {
   Exposure exposure;
   std::vector<GroupInfo> groups;
   std::string device;
+  std::vector<std::string> files{output};
   {
     const Progress progress = make_progress(options);
     if (linear && tone_given && tone.name != "linear")
       progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone.curve + " is not applied");
     const Package package = settings.open(input);
     groups = package.manifest().groups;
-    rendered = render(package, picture, settings, preset, exposed, progress);
-    exposure = exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);
+    rendered = open(package, picture, progress);
+    render(rendered, package, settings, preset, exposed, layers.empty(), progress);
+    exposure = exposure_of(rendered, choice, exposed);
     const Stage& stage = *rendered.stage;
-    if (!coverage.empty()) write_exr(coverage, stage.coverage(), PixelType::half);
-    linear ? write_linear(output, stage.linear(), exposure)
-           : write_toned(output, stage.toned(exposure, tone));
     device = stage.device();
+    if (!coverage.empty()) write_exr(coverage, stage.coverage(), PixelType::half);
+    if (sequence.given()) {
+      const SequenceEnd from{stage.linear(), exposure};
+      render(rendered, package, settings, last_preset, exposed, true, progress);
+      const SequenceEnd to{stage.linear(), exposure_of(rendered, last.tone.exposure_choice(), exposed)};
+      const auto write = [&](const std::string& file, const SequenceEnd& frame) {
+        linear ? write_linear(file, frame.linear, frame.exposure, acescg)
+               : write_png(file, tone_map(frame.linear, frame.exposure, tone));
+      };
+      files = write_sequence(sequence, from, to, output, write, progress);
+    } else if (!layers.empty()) {
+      device = "cpu";
+      const View view(package);
+      const LayeredPicture picture_of_layers = picture_layers(
+          package, view, rendered.camera, rendered.mix, rendered.params, parse_layers(layers), progress);
+      write_linear(output, picture_of_layers.image, exposure, acescg, picture_of_layers.light);
+    } else {
+      linear ? write_linear(output, stage.linear(), exposure, acescg)
+             : write_toned(output, stage.toned(exposure, tone));
+    }
     rendered.stage.reset();  // before the package
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -108,7 +181,7 @@ int run_render(int argc, const char* const* argv) {
   if (options.json) {
     nlohmann::ordered_json report = {
         {"input", input},
-        {"output", output},
+        {"output", sequence.given() ? nlohmann::ordered_json(files) : nlohmann::ordered_json(output)},
         {"width", rendered.params.width},
         {"height", rendered.params.height},
         {"samples", rendered.params.samples},
@@ -124,7 +197,8 @@ int run_render(int argc, const char* const* argv) {
     }
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!options.quiet && output != "-") {
-    fmt::print("{}: {} x {}, camera {}, exposure {}, {:.1f} s\n", output, rendered.params.width,
+    fmt::print("{}: {} x {}, camera {}, exposure {}, {:.1f} s\n",
+               sequence.given() ? files.front() + " ... " + files.back() : output, rendered.params.width,
                rendered.params.height, rendered.camera.name, exposure_text, seconds);
   }
   if (output != "-") options.next({input});

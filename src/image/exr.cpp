@@ -131,7 +131,8 @@ void check_writable(const std::filesystem::path& path, const Image& image) {
 Imf::Header make_header(const Image& image, PixelType type) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::addChromaticities(header, Imf::Chromaticities());  // the defaults are Rec. 709's
+  const auto& p = image.primaries;
+  Imf::addChromaticities(header, {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, {p[6], p[7]}});
   for (const auto& [name, value] : image.text)
     if (layout_attributes().count(name) == 0) header.insert(name, Imf::StringAttribute(value));
   for (const auto& [name, value] : image.number)

@@ -18,8 +18,8 @@ enum class PixelType { half, full };
 /// @throws Error (damaged, deep, no such file), NotMyFormat (no EXR)
 Image read_exr(const std::filesystem::path& path);
 
-/// ZIP-compressed scanlines with Rec. 709 chromaticities; written beside, then renamed. Halves are rounded to
-/// nearest even, finite values beyond +-65504 become +-65504. @throws Error (also when the disk is full;
+/// ZIP-compressed scanlines with the image's chromaticities; written beside, then renamed. Halves are rounded
+/// to nearest even, finite values beyond +-65504 become +-65504. @throws Error (also when the disk is full;
 /// nothing is left behind)
 void write_exr(const std::filesystem::path& path, const Image& image, PixelType type);
 

@@ -94,5 +94,27 @@ TEST(Primaries, Rec2020PureColours) {
   EXPECT_NEAR(image.data[5], -0.0182, 1e-4);
 }
 
+// The matrix as ACES' own tools print it (Bradford, D65 to the white of ACES); white stays white.
+TEST(Primaries, Acescg) {
+  const ColorMatrix published{{{0.6130974024, 0.3395231462, 0.0473794514},
+                               {0.0701937225, 0.9163538791, 0.0134523985},
+                               {0.0206155929, 0.1095697729, 0.8698146342}}};
+  const ColorMatrix m = rec709_to_acescg();
+  for (std::size_t r = 0; r < 3; ++r) {
+    EXPECT_NEAR(m[r][0] + m[r][1] + m[r][2], 1, 1e-12);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(m[r][c], published[r][c], 2e-6);
+  }
+  Image image(1, 1, {"R", "G", "B", "lamp.R", "lamp.G", "lamp.B", "Z"});
+  image.data = {1, 0, 0, 0.5f, 0.5f, 0.5f, 7};
+  to_acescg(image);
+  EXPECT_NEAR(image.data[0], 0.613097f, 1e-5f);
+  EXPECT_NEAR(image.data[3], 0.5f, 1e-6f);
+  EXPECT_NEAR(image.data[5], 0.5f, 1e-6f);
+  EXPECT_EQ(image.data[6], 7);
+  to_rec709(image);
+  EXPECT_NEAR(image.data[0], 1, 1e-6f);
+  EXPECT_NEAR(image.data[1], 0, 1e-6f);
+}
+
 }  // namespace
 }  // namespace sconce

@@ -25,6 +25,18 @@ ColorMatrix multiply(const ColorMatrix& a, const ColorMatrix& b) {
   return out;
 }
 
+/// Of three channels.
+void apply(const ColorMatrix& m, Image& image, const std::array<int, 3>& channels) {
+  const auto [r, g, b] = channels;
+  parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t y) {
+    for (int x = 0; x < image.width; ++x) {
+      float* p = image.at(x, static_cast<int>(y));
+      const std::array<double, 3> c = transform(m, {p[r], p[g], p[b]});
+      p[r] = static_cast<float>(c[0]), p[g] = static_cast<float>(c[1]), p[b] = static_cast<float>(c[2]);
+    }
+  });
+}
+
 }  // namespace
 
 ColorMatrix inverse(const ColorMatrix& m) {
@@ -59,19 +71,39 @@ ColorMatrix rgb_to_xyz(const std::array<float, 8>& p) {
   return m;
 }
 
+ColorMatrix rec709_to_acescg() {
+  // Bradford's cone responses, and what makes one white the other there.
+  constexpr ColorMatrix kCones{
+      {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
+  const ColorMatrix from = rgb_to_xyz(kRec709Primaries), to = rgb_to_xyz(kAcescgPrimaries);
+  const auto white = [&](const ColorMatrix& m) { return transform(kCones, transform(m, {1, 1, 1})); };
+  const std::array<double, 3> have = white(from), want = white(to);
+  ColorMatrix scaled = kCones;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (double& v : scaled[r]) v *= want[r] / have[r];
+  return multiply(multiply(inverse(to), inverse(kCones)), multiply(scaled, from));
+}
+
+void to_acescg(Image& image) {
+  const ColorMatrix m = rec709_to_acescg();
+  for (const std::string& name : image.channels) {
+    if (!(name == "R" || name.ends_with(".R"))) continue;
+    const std::string layer = name.substr(0, name.size() - 1);
+    const int g = image.channel(layer + "G"), b = image.channel(layer + "B");
+    if (g >= 0 && b >= 0) apply(m, image, {image.channel(name), g, b});
+  }
+  image.primaries = kAcescgPrimaries;
+}
+
 void to_rec709(Image& image) {
   const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
   const std::array<float, 8> from = image.primaries;
   if (r < 0 || g < 0 || b < 0 || from == kRec709Primaries) return;
-  const ColorMatrix m = multiply(inverse(rgb_to_xyz(kRec709Primaries)), rgb_to_xyz(from));
+  const ColorMatrix m = from == kAcescgPrimaries
+                            ? inverse(rec709_to_acescg())
+                            : multiply(inverse(rgb_to_xyz(kRec709Primaries)), rgb_to_xyz(from));
   if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return;  // degenerate primaries say nothing
-  parallel_for(static_cast<std::size_t>(image.height), 16, [&](std::size_t y) {
-    for (int x = 0; x < image.width; ++x) {
-      float* p = image.at(x, static_cast<int>(y));
-      const std::array<double, 3> c = transform(m, {p[r], p[g], p[b]});
-      p[r] = static_cast<float>(c[0]), p[g] = static_cast<float>(c[1]), p[b] = static_cast<float>(c[2]);
-    }
-  });
+  apply(m, image, {r, g, b});
   image.primaries = kRec709Primaries;
 }
 

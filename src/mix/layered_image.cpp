@@ -55,6 +55,12 @@ LayeredImage find_layers(ExrParts picture, const std::string& where, const std::
   }
   FoundGroups found = find_groups(layers, expression);
   const std::optional<std::string> beauty = find_beauty(layers, found);
+  if (const auto own = image.text.find("sconce:groups"); own != image.text.end() && expression.empty()) {
+    found = {"sconce", {}, {}};
+    for (const std::string& layer : split(own->second, '\n'))
+      if (std::find(layers.begin(), layers.end(), layer) != layers.end())
+        found.groups.push_back({layer, layer});
+  }
   const bool views = beauty && beauty->find('.') != std::string::npos;
   if (found.groups.empty() && expression.empty() && !views && all_colours(image.channels))
     for (const std::string& layer : layers)
