@@ -254,6 +254,9 @@ void declare(Options& options, Request& request) {
   options.option("--max-error", &max_error, "what --encoding auto may lose, e.g. 1% (the default)");
   options.option("--denoise", &denoise,
                  "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
+  options.option("--probes", &job.probes,
+                 "also probes so many metres apart, all over the scene: light of all groups from all around, "
+                 "for things that move");
   options.flag("--movable", &request.movable,
                "also what 'sconce transfer' makes, so that lamps can be taken out of their layers and moved");
   options.option("--seed", &seed, "random seed");
@@ -287,6 +290,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
     throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
   if (time < 0 || (time > 0 && (samples > 0 || noise > 0 || !shard.empty())))
     throw UsageError("--time", "cannot stand beside --samples, --noise or --shard");
+  if (job.probes < 0 || !(job.probes < 1e6))
+    throw UsageError("--probes", fmt::format("{} is out of range", job.probes), "metres, above 0");
   if (photons < 0 || photons > 1e9)
     throw UsageError("--photons", fmt::format("{} is out of range", photons), "1 to 1000000000");
   if (job.params.cloud < 0 || job.params.cloud > 1 << 24)
