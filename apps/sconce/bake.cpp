@@ -7,6 +7,7 @@
 #include "app.h"
 #include "bake_report.h"
 #include "checkpoint.h"
+#include "core/file_lock.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "encode/choice.h"
@@ -152,12 +153,15 @@ int execute(const Request& request, const Options& options, RankSession& session
   const auto seconds = [&] { return clock_seconds() - start; };
   const Ranks ranks = session.ranks();
   std::optional<PreparedBake> prepared;
+  std::optional<FileLock> lock;
   double time = request.given.time;
   session.together([&] {
     check_writable(request.output);
+    if (ranks.index == 0 && !request.dry_run)
+      lock.emplace(request.shard ? state_path(request) : request.output);
     BakeJob job = request.job;
     if (time > 0 && request.resume && fs::exists(state_path(request))) {
-      const BakeHeader begun = BakeState::open(state_path(request)).header();
+      const BakeHeader begun = BakeState::open(state_path(request), false).header();
       job.params.samples = BakeJob::from_json(begun.job, state_path(request).string()).params.samples;
       time = 0;
     }

@@ -7,6 +7,7 @@
 
 #include "app.h"
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "transfer_job.h"
@@ -18,7 +19,7 @@ namespace {
 std::string given_options(const Options& options) {
   std::string text;
   for (const auto& [name, value] : options.provenance())
-    if (value.source != "default") text += name + "=" + value.value + " ";
+    if (value.source != "default" && name != "resume") text += name + "=" + value.value + " ";
   return trim(text);
 }
 
@@ -119,7 +120,11 @@ int run_transfer(int argc, const char* const* argv) {
          "sconce relight {PACKAGE} --light point,position=1,1.8,1,lumens=400"});
     TransferJob job;
     std::optional<int> code;
-    session.together([&] { code = read_job(argc, argv, options, job); });
+    std::optional<FileLock> lock;
+    session.together([&] {
+      code = read_job(argc, argv, options, job);
+      if (!code && session.ranks().index == 0) lock.emplace(job.package);
+    });
     if (code) return *code;
     const ThreadLimit threads(options.threads);
     const MadeOperator made = [&] {

@@ -54,6 +54,7 @@ MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, cons
     std::error_code ec;
     if (ranks.index != 0) return;
     fs::create_directory(made.path.parent_path(), ec);
+    if (ec) throw Error(made.path.string(), "cannot be written: " + ec.message());
     if (job.resume) return;
     for (const auto& [rank, other] : files_of_others(file)) fs::remove(other, ec);
   });

@@ -346,19 +346,10 @@ void write_package(const fs::path& path, PackageContents contents,
   check(contents);
   Writer writer(contents, points);
   Beside beside(path);
-  try {
-    writer.run(beside.path());
-    keep_operators(path, contents.manifest, beside.path());
-  } catch (const fs::filesystem_error& e) {
-    throw Error(path.string(), "cannot be written: " + e.code().message());
-  } catch (const Error& e) {
-    // The user knows the package by its own name, not by the one it is written under.
-    std::string what = e.what();
-    const std::string temporary = beside.path().string();
-    if (const std::size_t at = what.find(temporary); at != std::string::npos)
-      what.replace(at, temporary.size(), path.string());
-    throw Error({}, what);
-  }
+  beside.fill([&](const fs::path& folder) {
+    writer.run(folder);
+    keep_operators(path, contents.manifest, folder);
+  });
   beside.commit();
 }
 
