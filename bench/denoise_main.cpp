@@ -47,7 +47,7 @@ struct Bench : LitAtlas {
     const bool kept = std::getenv("CACHE") != nullptr && std::filesystem::exists(path);
     Values values;
     {
-      BakeState state = kept ? BakeState::open(path) : BakeState::create(path, header);
+      BakeState state = kept ? BakeState::open(path, true) : BakeState::create(path, header);
       if (const auto tiles = missing_tiles(std::span(&state, 1), params); !tiles.empty()) {
         const std::vector<uint8_t> wanted(scene.groups.size(), 1);
         const SolveContext context{scene, world, tracer, lamps, &atlas, &receivers};

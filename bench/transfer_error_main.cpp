@@ -61,6 +61,69 @@ struct Errors {
   int lamps = 0;
 };
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What leaving small coefficients out costs and saves: means over lamps, of F's product alone.
+class CullingTable {
+ public:
+  explicit CullingTable(const ClusterRows& gather) : gather_(gather), culling_(gather) {}
+
+  /// @param light  coefficients, after all bounces
+  void add(const std::vector<Rgbx>& light) {
+    ++lamps_;
+    std::vector<Rgb> whole(gather_.rows), part(gather_.rows);
+    whole_ms_ += fastest([&] { multiply(gather_, light, whole); });
+    double norm = 0;
+    for (const Rgb& e : whole) norm += square(e);
+    for (Row& row : rows_) {
+      std::vector<Rgbx> left;
+      Culling::Report report;
+      // Finding them is paid for each time.
+      row.ms += fastest([&] {
+        left = light;
+        report = culling_.apply(row.share, left);
+        multiply(gather_, left, part, Zeros::skip);
+      });
+      double squares = 0;
+      for (std::size_t i = 0; i < part.size(); ++i) squares += square(part[i] - whole[i]);
+      row.kept += 1 - static_cast<double>(report.culled) / static_cast<double>(report.of);
+      row.error += std::sqrt(squares / norm), row.bound += report.bound / std::sqrt(norm);
+    }
+  }
+  void print() const {
+    fmt::print("F's product, nothing culled: {:.2f} ms\n", whole_ms_ / lamps_);
+    for (const Row& row : rows_)
+      fmt::print("culled below {:<6}: {:4.1f} % kept, error {:.3f} %, bound {:.1f} %, {:.2f} ms, {:.2f} x\n",
+                 row.share, 100 * row.kept / lamps_, 100 * row.error / lamps_, 100 * row.bound / lamps_,
+                 row.ms / lamps_, whole_ms_ / row.ms);
+  }
+
+ private:
+  struct Row {
+    float share;
+    double kept = 0, error = 0, bound = 0, ms = 0;
+  };
+  static double square(const Rgb& e) { return static_cast<double>(e.r * e.r + e.g * e.g + e.b * e.b); }
+  template <class F>
+  static double fastest(const F& f) {
+    double least = 1e30;
+    for (int repeat = 0; repeat < 10; ++repeat) {
+      const auto start = std::chrono::steady_clock::now();
+      f();
+      least = std::min(least, milliseconds_since(start));
+    }
+    return least;
+  }
+
+  const ClusterRows& gather_;
+  Culling culling_;
+  double whole_ms_ = 0;
+  int lamps_ = 0;
+  std::array<Row, 4> rows_{{{1e-4f}, {3e-4f}, {1e-3f}, {3e-3f}}};
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,6 +163,7 @@ int main(int argc, char** argv) {
   });
 
   const FoldedBounces bounces(op);
+  CullingTable culling(op.gather);
   std::vector<Rgb> indirect(op.gather.rows);
   Errors by_kind[2];
   for (std::size_t g = 0; g < groups; ++g) {
@@ -109,8 +173,8 @@ int main(int argc, char** argv) {
     const auto lit = std::chrono::steady_clock::now();
     bounces.apply(light);
     multiply(op.gather, light, indirect);
-    const std::chrono::duration<double, std::milli> cloud = lit - start,
-                                                    took = std::chrono::steady_clock::now() - lit;
+    const double took = milliseconds_since(lit), cloud = milliseconds_since(start) - took;
+    culling.add(light);
     double sum = 0, expected = 0, squares = 0, noise = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const GroupValue& value = truth[k * groups + g];
@@ -130,7 +194,7 @@ int main(int argc, char** argv) {
         "{:6} {:2}: mean {:.3f}, relative RMSE {:5.1f} %, noise taken off {:.1f} %, cloud {:.0f} ms, "
         "indirect {:.1f} ms\n",
         g % 2 == 0 ? "point" : "spot", g, sum / expected, 100 * rmse,
-        100 * std::sqrt(noise / n) / (expected / n), cloud.count(), took.count());
+        100 * std::sqrt(noise / n) / (expected / n), cloud, took);
   }
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
@@ -140,11 +204,11 @@ int main(int argc, char** argv) {
       const auto start = std::chrono::steady_clock::now();
       bounces.apply(light);
       multiply(op.gather, light, indirect);
-      least = std::min(
-          least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      least = std::min(least, milliseconds_since(start));
     }
     fmt::print("{} thread(s): light to light {:.2f} ms, the least of 30\n", threads, least);
   }
+  culling.print();
   fmt::print("\n{}: {} receivers, {} slots, {:.1f} MB, {:.0f} multiplications per receiver, {} sweeps\n",
              argv[1], op.gather.rows, op.slots(), static_cast<double>(op.bytes()) / 1e6,
              op.gather.macs_per_row(), op.sweeps);

@@ -124,7 +124,7 @@ TEST_F(Bake, TornRecordIsDroppedAndMadeAgain) {
   }
   const auto size = fs::file_size(path);
   fs::resize_file(path, size - 100);
-  BakeState state = BakeState::open(path);
+  BakeState state = BakeState::open(path, true);
   EXPECT_EQ(missing_tiles(std::span(&state, 1), bake.job.params).size(), 1u);
   app::run_bake(bake, {}, state, {});
   EXPECT_TRUE(missing_tiles(std::span(&state, 1), bake.job.params).empty());

@@ -59,6 +59,59 @@ TEST_F(Relight, AGroupByTransferIsItsLayer) {
   EXPECT_NEAR(mean("moved.exr") / mean("baked.exr"), 1, 0.02);
 }
 
+// The same file and program with the chapter's own operator, whose bounces are blurred photons.
+TEST_F(Relight, AGroupByTheChaptersMethod) {
+  make_room();
+  expect_done(run({"transfer", package, "--gather", "1024", "--method", "chapter", "--photons", "200000"}));
+  expect_done(run(picture("render", "baked.exr", {"left=on", "--others", "off", "--device", "cpu"})));
+  expect_done(run(picture("relight", "moved.exr",
+                          {"left=on", "--others", "off", "--light", "group,name=left", "--device", "cpu"})));
+  const test::Outcome same =
+      run({"diff", file("moved.exr"), file("baked.exr"), "--metric", "rmse", "--fail-above", "15%"});
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_NEAR(mean("moved.exr") / mean("baked.exr"), 1, 0.08);
+  EXPECT_EQ(run({"transfer", package, "--method", "magic"}).code, 2);
+  EXPECT_EQ(run({"transfer", package, "--method", "chapter", "--choice", "best"}).code, 2);
+}
+
+// Culling changes a picture by less than it says, and nothing where it is 0.
+TEST_F(Relight, CullingTellsItsBound) {
+  make_room();
+  const Names lamp{"--others", "off", "--light", "spot,position=0.2,1.5,0.1,target=0,0,0,lumens=100",
+                   "--device", "cpu"};
+  const auto relit = [&](const std::string& output, const Names& more) {
+    Names words = picture("relight", output, lamp);
+    words.insert(words.end(), more.begin(), more.end());
+    const test::Outcome outcome = run(words);
+    expect_done(outcome);
+    return outcome.out;
+  };
+  relit("all.exr", {});
+  relit("none.exr", {"--cull", "0"});
+  EXPECT_EQ(read_file(file("none.exr")), read_file(file("all.exr")));
+  const std::string said = relit("some.exr", {"--cull", "0.002"});
+  std::size_t culled = 0, of = 0;
+  double bound = 0;
+  const std::size_t at = said.find("culled: ");
+  ASSERT_NE(at, std::string::npos) << said;
+  ASSERT_EQ(std::sscanf(said.c_str() + at, "culled: %zu of %zu coefficients; indirect light is wrong by %lf",
+                        &culled, &of, &bound),
+            3)
+      << said;
+  EXPECT_GT(culled, of / 10);
+  EXPECT_LE(culled, of);
+  EXPECT_EQ(run({"diff", file("some.exr"), file("all.exr"), "--metric", "rmse", "--fail-above",
+                 std::to_string(bound) + "%"})
+                .code,
+            0)
+      << said;
+  EXPECT_EQ(run(picture("relight", "x.exr", {"--cull", "2", "--light", "group,name=left"})).code, 2);
+  EXPECT_EQ(
+      run(picture("relight", "x.exr", {"--cull", "0.1", "--light", "group,name=left", "--device", "gl"}))
+          .code,
+      2);
+}
+
 TEST_F(Relight, NewLampsAddAndScale) {
   make_room();
   const std::string lamp = "point,position=0.2,1.5,0.1,lumens=";
@@ -211,6 +264,38 @@ TEST_F(Relight, MistakesAreNamed) {
   EXPECT_NE(damaged.err.find("lightmap.bin"), std::string::npos) << damaged.err;
   fs::remove(op);
   EXPECT_EQ(run(picture("relight", "x.exr", {"--light", "group,name=left"})).code, 1);
+}
+
+// Each in one line that names the file and what is wrong with it.
+TEST_F(Relight, OperatorsThatDoNotFitAreNamed) {
+  make_room();
+  const fs::path op = fs::path(package) / "operators" / "lightmap.bin";
+  const std::string good = read_file(op);
+  const auto said = [&](const std::string& bytes) {
+    write_file(op, bytes);
+    const test::Outcome outcome = run(picture("relight", "x.exr", {"--light", "group,name=left"}));
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("lightmap.bin"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+    return outcome.err;
+  };
+  std::string version = good;
+  version[12] = 9;
+  EXPECT_NE(said(version).find("version 9; this program reads version 1"), std::string::npos);
+  EXPECT_NE(said(good.substr(0, good.size() / 2)).find("is damaged: it has"), std::string::npos);
+  EXPECT_NE(said(good.substr(0, 100)).find("is no operator"), std::string::npos);
+  Scene other = test::two_lamp_room();
+  other.materials[0].base_color = Rgb(0.3f);
+  write_file(folder / "other.glb", write_glb(other, "test"));
+  expect_done(run({"bake", file("other.glb"), "--density", "16", "--samples", "8"}));
+  expect_done(run({"transfer", file("other.sconce"), "--gather", "256"}));
+  EXPECT_NE(said(read_file(folder / "other.sconce" / "operators" / "lightmap.bin"))
+                .find("belongs to another state of this package"),
+            std::string::npos);
+  const test::Outcome gather = run({"transfer", package, "--gather", "1000"});
+  EXPECT_EQ(gather.code, 2);
+  EXPECT_NE(gather.err.find("a power of four: 256, 1024"), std::string::npos) << gather.err;
 }
 
 /// The same on a scene of others; figures in docs/operator-format.md.

@@ -7,6 +7,7 @@
 #include "app.h"
 #include "bake_report.h"
 #include "checkpoint.h"
+#include "core/file_lock.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "encode/choice.h"
@@ -152,12 +153,15 @@ int execute(const Request& request, const Options& options, RankSession& session
   const auto seconds = [&] { return clock_seconds() - start; };
   const Ranks ranks = session.ranks();
   std::optional<PreparedBake> prepared;
+  std::optional<FileLock> lock;
   double time = request.given.time;
   session.together([&] {
     check_writable(request.output);
+    if (ranks.index == 0 && !request.dry_run)
+      lock.emplace(request.shard ? state_path(request) : request.output);
     BakeJob job = request.job;
     if (time > 0 && request.resume && fs::exists(state_path(request))) {
-      const BakeHeader begun = BakeState::open(state_path(request)).header();
+      const BakeHeader begun = BakeState::open(state_path(request), false).header();
       job.params.samples = BakeJob::from_json(begun.job, state_path(request).string()).params.samples;
       time = 0;
     }
@@ -254,6 +258,9 @@ void declare(Options& options, Request& request) {
   options.option("--max-error", &max_error, "what --encoding auto may lose, e.g. 1% (the default)");
   options.option("--denoise", &denoise,
                  "on: one filter for all groups, guided by their noise; raw layers are kept (default: off)");
+  options.option("--probes", &job.probes,
+                 "also probes so many metres apart, all over the scene: light of all groups from all around, "
+                 "for things that move");
   options.flag("--movable", &request.movable,
                "also what 'sconce transfer' makes, so that lamps can be taken out of their layers and moved");
   options.option("--seed", &seed, "random seed");
@@ -287,6 +294,8 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
     throw UsageError("--noise", fmt::format("{} is out of range", noise), "0 to 100 %");
   if (time < 0 || (time > 0 && (samples > 0 || noise > 0 || !shard.empty())))
     throw UsageError("--time", "cannot stand beside --samples, --noise or --shard");
+  if (job.probes < 0 || !(job.probes < 1e6))
+    throw UsageError("--probes", fmt::format("{} is out of range", job.probes), "metres, above 0");
   if (photons < 0 || photons > 1e9)
     throw UsageError("--photons", fmt::format("{} is out of range", photons), "1 to 1000000000");
   if (job.params.cloud < 0 || job.params.cloud > 1 << 24)

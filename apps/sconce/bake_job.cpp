@@ -91,6 +91,12 @@ std::vector<std::string> hash_inputs(const BakeJob& job, const Scene& scene, con
   return layer_inputs(scene, world, how_hash(job) + made_with(job.params) + isa());
 }
 
+std::vector<PlaneLight> find_planes(const BakeJob& job, const World& world) {
+  std::vector<PlaneLight> planes;
+  for (auto& [name, plane] : import_planes(job.scene, world.bounds)) planes.push_back({name, plane, 0, {}});
+  return planes;
+}
+
 /// The texels of what is kept, or new ones; ranks share what is computed from here on.
 Atlas make_layout(const PreparedBake& bake, const Ranks& ranks, const Progress& progress) {
   check_agreement(join(bake.inputs, " ") + fmt::format(" {}", bake.plan.count(true)), ranks);
@@ -117,6 +123,7 @@ std::string BakeJob::to_json() const {
                                {"encoding", encoding},
                                {"max_error", max_error},
                                {"denoise", denoise},
+                               {"probes", probes},
                                {"page_size", atlas.page_size},
                                {"max_page", atlas.max_page},
                                {"gutter", atlas.gutter},
@@ -143,6 +150,7 @@ BakeJob BakeJob::from_json(const std::string& text, const std::string& where) {
     json.at("encoding").get_to(job.encoding);
     json.at("max_error").get_to(job.max_error);
     json.at("denoise").get_to(job.denoise);
+    json.at("probes").get_to(job.probes);
     json.at("page_size").get_to(job.atlas.page_size);
     json.at("max_page").get_to(job.atlas.max_page);
     json.at("gutter").get_to(job.atlas.gutter);
@@ -184,6 +192,7 @@ PreparedBake::PreparedBake(const BakeJob& job_, const Progress& progress, const 
       lamps(scene, world),
       atlas(make_layout(*this, ranks, progress)),
       receivers(world, tracer, atlas, progress, ranks),
+      planes(find_planes(job, world)),
       hash(bake_hash(job, scene, receivers)) {
   find_solver(job.solver);
   for (const std::string& warning : atlas.report.warnings) progress.warn(warning);
@@ -222,6 +231,7 @@ std::string PreparedBake::result_hash() const {
       .text(job.encoding)
       .value(job.max_error)
       .value(job.denoise)
+      .value(job.probes)
       .hex();
 }
 

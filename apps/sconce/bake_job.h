@@ -7,6 +7,7 @@
 #include "bake_plan.h"
 #include "scene/groups.h"
 #include "solve/bake.h"
+#include "solve/points.h"
 
 namespace sconce::app {
 
@@ -20,6 +21,7 @@ struct BakeJob {
       "f16";  ///< "f16" or "f16,ceiling=lum:f16": a default, then exceptions by group name or glob
   double max_error = 0.01;  ///< of the encoding "auto"
   bool denoise = false;
+  double probes = 0;  ///< metres between probes; 0 = none
   AtlasParams atlas;
   BakeParams params;
 
@@ -44,7 +46,8 @@ struct PreparedBake {
   Lamps lamps;
   Atlas atlas;
   TexelReceivers receivers;
-  std::string hash;  ///< of what records depend on: contract.md, "The resume hash"
+  std::vector<PlaneLight> planes;  ///< of the side file, without light yet
+  std::string hash;                ///< of what records depend on: contract.md, "The resume hash"
 
   /// @param before  a package whose layers are kept where nothing that they depend on has changed, on its own
   /// texels; empty or not there = all is solved

@@ -69,6 +69,18 @@ std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vecto
   return result;
 }
 
+/// Planes and probes, always of all groups: they are few.
+std::map<std::string, Image> points(const PreparedBake& bake, std::span<const GroupInfo> groups,
+                                    const Progress& progress) {
+  const SolveContext context{bake.scene, bake.world, bake.tracer, bake.lamps};
+  std::vector<PlaneLight> planes = bake.planes;
+  for (PlaneLight& plane : planes) bake_plane(plane, context, bake.job.params, progress);
+  std::optional<ProbeGrid> probes;
+  if (bake.job.probes > 0)
+    probes = bake_probes(static_cast<float>(bake.job.probes), context, bake.job.params, progress);
+  return print_points(planes, probes ? &*probes : nullptr, groups);
+}
+
 }  // namespace
 
 Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
@@ -154,10 +166,11 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
     }
     manifest.groups.push_back(std::move(info));
   }
+  const std::map<std::string, Image> point_files = points(bake, manifest.groups, progress);
   contents.layout = pack_layout(atlas);
   contents.scene = std::move(baked.scene);
   progress.at("write", 0, 1);
-  write_package(output, std::move(contents));
+  write_package(output, std::move(contents), point_files);
   return Package::open(output, false).manifest();
 }
 

@@ -31,7 +31,7 @@ std::map<int, fs::path> files_of_others(const fs::path& path) {
 namespace {
 
 BakeState take_up(const fs::path& path, const BakeHeader& header) {
-  BakeState state = BakeState::open(path);
+  BakeState state = BakeState::open(path, true);
   if (state.header().hash != header.hash)
     throw Error(path.string(), "belongs to another scene or other options, so it cannot be resumed",
                 "the options of the first run, or no --resume");
@@ -86,8 +86,8 @@ std::vector<BakeState> Checkpoint::finish(RankSession& session) {
   session.together([] {});
   std::vector<BakeState> all;
   if (ranks.index != 0) return all;
-  all.push_back(BakeState::open(path_));
-  for (const auto& [rank, file] : files_of_others(path_)) all.push_back(BakeState::open(file));
+  all.push_back(BakeState::open(path_, false));
+  for (const auto& [rank, file] : files_of_others(path_)) all.push_back(BakeState::open(file, false));
   if (all.size() < static_cast<std::size_t>(ranks.count))
     throw Error(path_.string(), "the other ranks' files beside it cannot be seen",
                 "a folder that all machines share");

@@ -3,6 +3,7 @@
 
 #include "app.h"
 #include "bake_report.h"
+#include "core/file_lock.h"
 #include "core/parallel.h"
 
 namespace sconce::app {
@@ -23,9 +24,10 @@ int run_merge(int argc, const char* const* argv) {
   const auto start = std::chrono::steady_clock::now();
   const Progress progress = make_progress(options);
   const ThreadLimit threads(options.threads);
+  const FileLock lock(output);
   std::vector<BakeState> states;
   for (const std::string& shard : shards) {
-    states.push_back(BakeState::open(shard));
+    states.push_back(BakeState::open(shard, false));
     const BakeHeader &first = states.front().header(), &header = states.back().header();
     if (header.hash != first.hash) throw Error(shard, "belongs to another bake than " + shards.front());
     if (header.job != first.job) throw Error(shard, "was baked with other options than " + shards.front());

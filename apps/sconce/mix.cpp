@@ -71,15 +71,7 @@ void write_pages(const std::vector<std::string>& files,
   std::vector<std::unique_ptr<Beside>> written;
   for (std::size_t i = 0; i < files.size(); ++i) {
     written.push_back(std::make_unique<Beside>(files[i]));
-    try {
-      write(written.back()->path(), i);
-    } catch (const Error& e) {
-      const std::string temporary = written.back()->path().string();
-      std::string what = e.what();
-      if (const std::size_t at = what.find(temporary); at != std::string::npos)
-        what.replace(at, temporary.size(), files[i]);
-      throw Error({}, what);
-    }
+    written.back()->fill([&](const fs::path& path) { write(path, i); });
   }
   for (const auto& beside : written) beside->commit();
 }

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
+#include "package/points.h"
 #include "probe_report.h"
 #include "scene/daylight.h"
 
@@ -24,6 +25,7 @@ struct Probing {
   std::vector<std::string> points;
   double grid = 0.5, maintenance = 1;
   int samples = 2048;
+  bool from_probes = false;
 };
 
 /// What the skies put onto an open horizontal plane, lux, and the groups that they are in.
@@ -41,10 +43,12 @@ double outside(const Scene& scene, const MixSpec& mix, std::vector<bool>& skies)
   return lux;
 }
 
-ProbePoints find_points(const Probing& job, const Bounds& bounds) {
+ProbePoints find_points(const Probing& job, const Bounds& bounds, const std::vector<PlaneLight>& baked) {
   ProbePoints at;
   if (!job.plane.empty()) {
-    at.plane = parse_plane(job.plane, bounds, job.grid);
+    std::vector<std::string> names;
+    for (const PlaneLight& plane : baked) names.push_back(plane.name);
+    at.plane = parse_plane(job.plane, bounds, job.grid, names);
     at.points = at.plane->points();
     return at;
   }
@@ -52,6 +56,41 @@ ProbePoints find_points(const Probing& job, const Bounds& bounds) {
   for (const std::string& text : job.points) at.points.push_back(parse_probe(text, "option '--at'"));
   if (at.points.empty()) throw UsageError({}, "there are no points", "--at, --points, --plane");
   return at;
+}
+
+/// What was measured, and how in words.
+struct Measured {
+  MeasuredLight light;
+  std::string how;
+};
+
+/// From the package where the plane or the probes were baked with it, else traced.
+Measured measure(const Probing& job, const Package& package, const View& view, ProbePoints& at,
+                 const Progress& progress) {
+  const std::size_t groups = package.manifest().groups.size();
+  const std::vector<PlaneLight> planes = read_planes(package);
+  for (const PlaneLight& baked : planes) {
+    if (baked.name != job.plane) continue;
+    at.plane = baked.plane;
+    at.points = baked.plane.points();
+    return {{groups, baked.samples, baked.values},
+            fmt::format("path tracing, all bounces, diffuse surfaces, baked with up to {} paths a point",
+                        baked.samples)};
+  }
+  at = find_points(job, view.world().bounds, planes);
+  if (job.from_probes) {
+    const std::optional<ProbeGrid> probes = read_probes(package);
+    if (!probes) throw Error(job.input, "has no probes", "sconce bake --probes 1");
+    MeasuredLight light{groups, 0, {}};
+    for (const SurfacePoint& p : at.points)
+      for (std::size_t g = 0; g < groups; ++g)
+        light.values.push_back(probes->part(p.position, p.shading_normal, g));
+    return {std::move(light), fmt::format("between probes {:.3g} m apart", probes->spacing)};
+  }
+  PointMeter meter(view, at.points, ReceiverKind::plane);
+  meter.pass(job.samples, progress);
+  return {meter.light(), fmt::format("path tracing, all bounces, diffuse surfaces, {} paths a point",
+                                     meter.light().samples)};
 }
 
 void fill_values(ProbeReport& report, const MeasuredLight& light, const MixSpec& mix, const Scene& scene,
@@ -67,7 +106,8 @@ void fill_values(ProbeReport& report, const MeasuredLight& light, const MixSpec&
       report.parts[g][i] = maintenance * luminance(mix.weights[g] * light.values[i * light.groups + g]);
       if (skies[g]) sky += report.parts[g][i] / maintenance;
     }
-    report.colors.push_back(maintenance * light.mixed(i, mix));
+    const Rgb e = light.mixed(i, mix);  // between probes a group's part may be below 0, light is not
+    report.colors.push_back(maintenance * Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)));
     report.lux.push_back(dark[i] ? NAN : luminance(report.colors.back()));
     if (open > 0) report.daylight.push_back(static_cast<float>(100 * static_cast<double>(sky) / open));
   }
@@ -127,9 +167,12 @@ int run_probe(int argc, const char* const* argv) {
   options.option(
       "--plane", &job.plane,
       "floor+0.75: horizontal over the scene, half a metre from its sides; or a corner and two edges, "
-      "X,Y,Z/AX,AY,AZ/BX,BY,BZ");
-  options.option("--grid", &job.grid, "metres between the plane's points, at most");
+      "X,Y,Z/AX,AY,AZ/BX,BY,BZ; or the name of one that was baked ([[plane]] of the side file), which is "
+      "only read");
+  options.option("--grid", &job.grid, "metres between the points of a plane that is traced, at most");
   options.option("--samples", &job.samples, "paths per point");
+  options.flag("--probes", &job.from_probes,
+               "read between the package's probes (bake --probes) instead of tracing, as an engine does");
   options.option("--maintenance", &job.maintenance,
                  "maintenance factor: multiplies all lux, not daylight factors");
   options.option(
@@ -154,19 +197,15 @@ int run_probe(int argc, const char* const* argv) {
   const MixSpec mix = settings.make(settings.preset(), groups, progress);
   const View view(package);
   ProbeReport report;
-  report.at = find_points(job, view.world().bounds);
   for (const GroupInfo& group : groups) report.groups.push_back(group.name);
-  PointMeter meter(view, report.at.points, ReceiverKind::plane);
-  meter.pass(job.samples, progress);
-  fill_values(report, meter.light(), mix, view.scene(), static_cast<float>(job.maintenance));
-  report.assumptions = {
-      {"package", fs::path(job.input).filename().string()},
-      {"settings", settings.settings.empty() ? "as baked" : join(settings.settings, " ")},
-      {"preset", settings.preset_file.empty() ? "none" : settings.preset_file},
-      {"maintenance factor", fmt::format("{:.2f}", job.maintenance)},
-      {"calculation",
-       fmt::format("path tracing, all bounces, diffuse surfaces, {} paths a point", meter.light().samples)},
-      {"plane", job.plane.empty() ? "none: single points" : job.plane}};
+  const Measured measured = measure(job, package, view, report.at, progress);
+  fill_values(report, measured.light, mix, view.scene(), static_cast<float>(job.maintenance));
+  report.assumptions = {{"package", fs::path(job.input).filename().string()},
+                        {"settings", settings.settings.empty() ? "as baked" : join(settings.settings, " ")},
+                        {"preset", settings.preset_file.empty() ? "none" : settings.preset_file},
+                        {"maintenance factor", fmt::format("{:.2f}", job.maintenance)},
+                        {"calculation", measured.how},
+                        {"plane", job.plane.empty() ? "none: single points" : job.plane}};
   if (job.output == "-" || ending == ".csv") {
     job.output == "-" ? write_stdout(probe_csv(report)) : write_file(job.output, probe_csv(report));
   } else if (ending == ".html") {

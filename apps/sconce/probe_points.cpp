@@ -15,7 +15,7 @@ namespace sconce::app {
 
 namespace {
 
-constexpr const char* kForms = "floor+HEIGHT, or X,Y,Z/AX,AY,AZ/BX,BY,BZ: a corner and two edges";
+const std::string kForms = "floor+HEIGHT, or X,Y,Z/AX,AY,AZ/BX,BY,BZ: a corner and two edges";
 
 /// @return nothing where there are neither three nor six numbers
 std::optional<SurfacePoint> point_of(const std::vector<std::string>& words) {
@@ -68,27 +68,20 @@ std::vector<SurfacePoint> read_probes(const std::string& file) {
   return points;
 }
 
-MeasuringPlane parse_plane(const std::string& text, const Bounds& bounds, double spacing) {
+MeasuringPlane parse_plane(const std::string& text, const Bounds& bounds, double spacing,
+                           const std::vector<std::string>& names) {
   const std::string where = "option '--plane'";
   if (text.starts_with("floor+")) {
-    const auto height = parse_number(text.substr(6));
+    const auto height = height_over_floor(text);
     if (!height) throw UsageError(where, "'" + text + "' has no height", kForms);
-    return horizontal_plane(bounds, static_cast<float>(*height), static_cast<float>(spacing));
+    return horizontal_plane(bounds, *height, static_cast<float>(spacing));
   }
   const std::vector<std::string> parts = split(text, '/');
-  if (parts.size() != 3) throw UsageError(where, "'" + text + "' is no plane", kForms);
-  MeasuringPlane plane;
-  plane.corner = parse_point(parts[0], "--plane");
-  plane.across = parse_point(parts[1], "--plane"), plane.along = parse_point(parts[2], "--plane");
-  const float a = glm::length(plane.across), b = glm::length(plane.along);
-  if (!(a > 0 && b > 0) || std::abs(glm::dot(plane.across, plane.along)) > 1e-3f * a * b)
-    throw UsageError(where, "the edges of '" + text + "' are not at right angles", kForms);
-  const auto count = [&](float side) {
-    return std::max(1, static_cast<int>(std::ceil(side / spacing - 1e-4)));
-  };
-  plane.columns = count(a), plane.rows = count(b);
-  plane.check();
-  return plane;
+  if (parts.size() != 3)
+    throw UsageError(where, "'" + text + "' is no plane",
+                     kForms + (names.empty() ? "" : "; or baked: " + join(names, ", ")));
+  return spanned_plane(parse_point(parts[0], "--plane"), parse_point(parts[1], "--plane"),
+                       parse_point(parts[2], "--plane"), spacing);
 }
 
 }  // namespace sconce::app

@@ -22,7 +22,9 @@ std::vector<SurfacePoint> read_probes(const std::string& file);
 
 /// `floor+0.75`: horizontal, facing up, over the scene less half a metre at each side; or
 /// `X,Y,Z/AX,AY,AZ/BX,BY,BZ`: a corner and two edges at right angles, facing A x B.
-/// @param spacing  metres between points, at most @throws UsageError
-MeasuringPlane parse_plane(const std::string& text, const Bounds& bounds, double spacing);
+/// @param spacing  metres between points, at most @param names  of other planes, for the error
+/// @throws UsageError
+MeasuringPlane parse_plane(const std::string& text, const Bounds& bounds, double spacing,
+                           const std::vector<std::string>& names);
 
 }  // namespace sconce::app

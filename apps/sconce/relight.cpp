@@ -97,6 +97,7 @@ struct Relit {
   PictureParams params;
   Metering metering;
   Relighter::Seconds seconds;
+  Culling::Report culled;
   std::string device;
   std::vector<GroupInfo> groups;
   MixSpec mix;
@@ -128,6 +129,7 @@ int run_relight(int argc, const char* const* argv) {
   std::string input, output, file;
   std::vector<std::string> texts, moves;
   bool pixels = false;
+  double cull = 0;
   MixOptions settings;
   PictureOptions picture;
   RelightDevice device;
@@ -153,6 +155,10 @@ int run_relight(int argc, const char* const* argv) {
       "from there, turned to the target; may be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
+  options.option(
+      "--cull", &cull,
+      "leave out wavelet coefficients of the cloud's light that change indirect light by less than "
+      "this share of what its mean does, for example 0.001; what that can change at most is told");
   options.option("--patches", &device.patches, "small lamps that OpenGL draws a lamp with an area as");
   options.option("--shadow-map", &device.shadow_side, "texels of the side of OpenGL's shadow maps");
   options.option("--terms-per-pass", &device.terms_per_pass,
@@ -171,6 +177,7 @@ int run_relight(int argc, const char* const* argv) {
   device.name = picture.device;
   device.reflections = !picture.no_reflections && !pixels;
   device.check();
+  if (!(cull >= 0 && cull <= 1)) throw UsageError("option '--cull'", fmt::format("{}", cull), "0 to 1");
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");
   if (output.empty()) output = default_output(input, ".relit.png");
@@ -207,7 +214,7 @@ int run_relight(int argc, const char* const* argv) {
       return MovedLamps(view.scene(), view.world(), view.tracer(), lights, of, by);
     };
     const MovedLamps lamps = lamps_at(wanted.lights, groups, moved);
-    RelightJob job{package, view, op, lamps, wanted.shaders, nullptr};
+    RelightJob job{package, view, op, lamps, wanted.shaders, nullptr, static_cast<float>(cull)};
     std::vector<Image> pages = mix_pages(package, lightmap);
     if (const std::vector<MovedGroup> parts = in_part(groups); !parts.empty()) {
       job.bounces = std::make_shared<FoldedBounces>(op);
@@ -217,6 +224,7 @@ int run_relight(int argc, const char* const* argv) {
     const auto stage = make_relight_stage(job, device, progress);
     relit.seconds = stage->seconds();
     relit.device = stage->device();
+    relit.culled = stage->culled();
     if (texels) stage->add_to(pages);
     relit.linear = stage->draw(relit.camera, relit.mix, pages, relit.params, progress);
     if (exposed && texels && wanted.shaders.empty()) {
@@ -232,7 +240,7 @@ int run_relight(int argc, const char* const* argv) {
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (options.json) {
-    const nlohmann::ordered_json report = {
+    nlohmann::ordered_json report = {
         {"input", input},
         {"output", output},
         {"width", relit.params.width},
@@ -243,11 +251,18 @@ int run_relight(int argc, const char* const* argv) {
         {"groups", nlohmann::ordered_json::parse(weights_json(relit.groups, relit.mix))},
         {"seconds",
          {{"cloud", relit.seconds.direct}, {"indirect", relit.seconds.indirect}, {"all", seconds}}}};
+    if (cull > 0)
+      report["culled"] = {{"coefficients", relit.culled.culled},
+                          {"of", relit.culled.of},
+                          {"largest_error", relit.culled.bound}};
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!options.quiet && output != "-") {
     fmt::print("{}: {} x {}, light on the cloud {:.0f} ms, indirect {:.1f} ms, all {:.1f} s\n", output,
                relit.params.width, relit.params.height, 1e3 * relit.seconds.direct,
                1e3 * relit.seconds.indirect, seconds);
+    if (cull > 0)
+      fmt::print("culled: {} of {} coefficients; indirect light is wrong by {:.2g} % (RMS) at most\n",
+                 relit.culled.culled, relit.culled.of, 100 * relit.culled.bound);
   }
   if (output != "-") options.next({input});
   return kDone;

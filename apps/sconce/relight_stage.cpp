@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "core/error.h"
 #include "gpu/direct_light.h"
@@ -20,9 +21,17 @@ namespace {
 class CpuRelightStage : public RelightStage {
  public:
   CpuRelightStage(const RelightJob& job, const FoldedBounces& bounces)
-      : view_(job.view), relighter_(job.package, job.view, job.op, bounces, job.lamps) {}
+      : view_(job.view), relighter_(job.package, job.view, job.op, bounces, job.lamps, job.cull) {}
   std::string device() const override { return "cpu"; }
   Relighter::Seconds seconds() const override { return relighter_.seconds(); }
+  Culling::Report culled() const override {
+    Culling::Report report = relighter_.culled();
+    double squares = 0;
+    for (const Rgb& e : relighter_.indirect())
+      for (const float v : {e.r, e.g, e.b}) squares += static_cast<double>(v) * static_cast<double>(v);
+    report.bound /= std::max(std::sqrt(squares), 1e-30);
+    return report;
+  }
   void add_to(std::vector<Image>& pages) const override { relighter_.add_to(pages); }
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
              const PictureParams& params, const Progress& progress) override {
@@ -121,12 +130,15 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
                                                  const Progress& progress) {
   if (device.name == "cpu" && !job.shaders.empty())
     throw UsageError("option '--device'", "light shaders need OpenGL", "gl, auto");
+  if (job.cull > 0 && (device.name == "gl" || !job.shaders.empty()))
+    throw UsageError("option '--cull'", "OpenGL leaves nothing out", "with --device cpu");
   for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
   const Scene& scene = job.view.scene();
   const bool traced =
       device.name == "auto" && ((device.reflections && scene.has_mirrors()) || scene.has_panes());
-  if (auto context = open_context(!job.shaders.empty() ? "gl" : traced ? "cpu" : device.name)) {
+  const bool cpu = traced || job.cull > 0;
+  if (auto context = open_context(!job.shaders.empty() ? "gl" : cpu ? "cpu" : device.name)) {
     try {
       std::vector<gpu::LampShader> all =
           gpu::lamp_shaders(job.lamps.lamps(), job.lamps.chosen(), device.patches, device.shadow_side);

@@ -17,6 +17,7 @@ struct RelightJob {
   const MovedLamps& lamps;
   std::vector<gpu::LampShader> shaders;          ///< these need OpenGL
   std::shared_ptr<const FoldedBounces> bounces;  ///< of the operator; made where null and needed
+  float cull = 0;                                ///< of Relighter: on the processor
 };
 
 /// For OpenGL.
@@ -37,6 +38,8 @@ class RelightStage {
   virtual ~RelightStage() = default;
   virtual std::string device() const = 0;  ///< "cpu", or OpenGL's name of what computes
   virtual Relighter::Seconds seconds() const = 0;
+  /// Its bound is a share of indirect light, both as the root of the sum of squares over receivers.
+  virtual Culling::Report culled() const { return {}; }
   /// Relighter::add_to
   virtual void add_to(std::vector<Image>& pages) const = 0;
   /// The picture, linear, cd/m2.
@@ -48,6 +51,7 @@ class RelightStage {
 /// Lights the cloud and sends its light to all receivers. `auto` is OpenGL where there is a graphics device
 /// that knows all lamps, and for shaders in any case.
 /// Warns of lamps that stand inside something.
+/// Culling is no OpenGL, either.
 /// @throws Error when OpenGL is wanted and there is none, or it does not know a lamp; UsageError
 std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const RelightDevice& device,
                                                  const Progress& progress);

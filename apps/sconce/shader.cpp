@@ -163,8 +163,10 @@ int run_shader(int argc, const char* const* argv) {
     write_stdout(shader.text);
     return kDone;
   }
-  write_file(output, shader.text);
+  Beside beside(output);
+  beside.fill([&](const fs::path& path) { write_file(path, shader.text); });
   write_file(output + ".json", text);
+  beside.commit();
   if (options.json)
     fmt::print("{}", text);
   else if (!options.quiet)

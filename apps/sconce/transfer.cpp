@@ -7,6 +7,7 @@
 
 #include "app.h"
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "transfer_job.h"
@@ -18,13 +19,28 @@ namespace {
 std::string given_options(const Options& options) {
   std::string text;
   for (const auto& [name, value] : options.provenance())
-    if (value.source != "default") text += name + "=" + value.value + " ";
+    if (value.source != "default" && name != "resume") text += name + "=" + value.value + " ";
   return trim(text);
+}
+
+/// What the chapter's rows are made with where nothing else is said: its own numbers.
+void use_chapter(const Options& options, const std::string& choice, TransferParams& params) {
+  const auto given = options.provenance();
+  const auto is_default = [&](const char* name) { return given.at(name).source == "default"; };
+  params.method = TransferMethod::chapter;
+  if (is_default("coefficients")) params.coefficients = 100;
+  if (is_default("bounce-coefficients")) params.bounce_coefficients = 40;
+  if (is_default("points")) params.points = 1;
+  const auto it = std::find_if(kWeightings.begin(), kWeightings.end(),
+                               [&](const auto& row) { return row.name == choice; });
+  if (it == kWeightings.end())
+    throw UsageError("option '--choice'", "unknown choice '" + choice + "'", "root-area, area, none");
+  params.choice = it->weighting;
 }
 
 /// @return exit code when nothing is left to do
 std::optional<int> read_job(int argc, const char* const* argv, Options& options, TransferJob& job) {
-  std::string input;
+  std::string input, method = "fitted", choice = "root-area";
   bool lightmap = false;
   PictureOptions& picture = job.picture;
   TransferParams& params = job.params;
@@ -41,6 +57,16 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
                  "the same per node of the cloud, for light that was reflected");
   options.option("--points", &params.points, "where direct light is asked for, per sample of the cloud");
   options.option("--lights", &params.lights, "lamps at random places that rows are fitted to");
+  options.option(
+      "--method", &method,
+      "fitted; or chapter, to compare with: form factors between points, bounces by photons, plain "
+      "rows of 100 and 40 coefficients; hours at full size");
+  options.option(
+      "--choice", &choice,
+      "of the chapter's coefficients, the largest times: root-area (of the wavelet's support), area, "
+      "none");
+  options.option("--photons", &params.photons, "of the chapter: that the cloud sends");
+  options.option("--nearest", &params.nearest, "of these, looked at from each sample of the cloud");
   options.option("--seed", &seed, "of the random numbers");
   options.flag("--resume", &job.resume, "go on with what an interrupted transfer left");
   if (const auto code = options.parse(argc, argv)) return *code;
@@ -50,6 +76,10 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
   picture.check();
   params.gather = static_cast<std::size_t>(std::max(0, gather));
   params.seed = static_cast<uint32_t>(seed);
+  if (method == "chapter")
+    use_chapter(options, choice, params);
+  else if (method != "fitted")
+    throw UsageError("option '--method'", "unknown method '" + method + "'", "fitted, chapter");
   job.package = input;
   job.options = given_options(options);
   return std::nullopt;
@@ -90,7 +120,11 @@ int run_transfer(int argc, const char* const* argv) {
          "sconce relight {PACKAGE} --light point,position=1,1.8,1,lumens=400"});
     TransferJob job;
     std::optional<int> code;
-    session.together([&] { code = read_job(argc, argv, options, job); });
+    std::optional<FileLock> lock;
+    session.together([&] {
+      code = read_job(argc, argv, options, job);
+      if (!code && session.ranks().index == 0) lock.emplace(job.package);
+    });
     if (code) return *code;
     const ThreadLimit threads(options.threads);
     const MadeOperator made = [&] {

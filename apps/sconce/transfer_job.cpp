@@ -16,8 +16,10 @@ namespace {
 
 /// All that rows of F depend on beside the scene.
 std::string key_of(const TransferParams& p, const RelightReceivers& receivers) {
-  std::string key = fmt::format("{} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
-                                p.bounce_coefficients, p.points, p.lights, p.seed, receivers.source.count);
+  std::string key =
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
+                  p.bounce_coefficients, p.points, p.lights, p.seed, receivers.source.count,
+                  static_cast<int>(p.method), static_cast<int>(p.choice));
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r) key += fmt::format(" {}", receivers.camera.frame[c][r]);
   return key + fmt::format(" {} {} {}", receivers.camera.yfov, receivers.width, receivers.height);
@@ -44,7 +46,7 @@ MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, cons
       const Camera camera =
           job.picture.find_camera(view->scene(), [&] { return view->camera("", progress); });
       const PictureParams size = job.picture.params(camera);
-      receivers = pixel_receivers(*view, camera, size.width, size.height);
+      receivers = pixel_receivers(view->traced(), camera, size.width, size.height);
     }
     scene = operator_scene(*package);
     made.path = operator_path(package->path(), job.picture.camera);
@@ -52,6 +54,7 @@ MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, cons
     std::error_code ec;
     if (ranks.index != 0) return;
     fs::create_directory(made.path.parent_path(), ec);
+    if (ec) throw Error(made.path.string(), "cannot be written: " + ec.message());
     if (job.resume) return;
     for (const auto& [rank, other] : files_of_others(file)) fs::remove(other, ec);
   });

@@ -2,10 +2,12 @@
 #include "core/files.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -49,10 +51,41 @@ void write_file(const fs::path& path, std::string_view bytes) {
   beside.commit();
 }
 
-Beside::Beside(fs::path target) : target_(std::move(target)) {
-  while (!target_.has_filename() && target_.has_parent_path()) target_ = target_.parent_path();
+fs::path without_slash(fs::path path) {
+  while (!path.has_filename() && path.has_parent_path()) path = path.parent_path();
+  return path;
+}
+
+namespace {
+
+std::string host() {
+  char name[256] = "";
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+/// What processes of this machine left that died while they wrote beside the same target.
+void remove_left(const fs::path& target, const std::string& mark) {
+  std::error_code ec;
+  const std::string begin = target.filename().string() + mark;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::vector<fs::path> left;
+  for (fs::directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    const pid_t process = std::atoi(name.c_str() + begin.size());
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(at->path());
+  }
+  for (const fs::path& file : left) fs::remove_all(file, ec);
+}
+
+}  // namespace
+
+Beside::Beside(fs::path target) : target_(without_slash(std::move(target))) {
+  const std::string mark = ".writing-" + host() + "-";
+  remove_left(target_, mark);
   temporary_ = target_;
-  temporary_ += ".writing-" + std::to_string(::getpid());
+  temporary_ += mark + std::to_string(::getpid());
   std::error_code ec;
   fs::remove_all(temporary_, ec);
 }
@@ -61,6 +94,20 @@ Beside::~Beside() {
   if (committed_) return;
   std::error_code ec;
   fs::remove_all(temporary_, ec);
+}
+
+void Beside::fill(const std::function<void(const fs::path&)>& write) const {
+  try {
+    write(temporary_);
+  } catch (const fs::filesystem_error& e) {
+    throw Error(target_.string(), "cannot be written: " + e.code().message());
+  } catch (const Error& e) {
+    std::string what = e.what();
+    const std::string temporary = temporary_.string();
+    if (const std::size_t at = what.find(temporary); at != std::string::npos)
+      what.replace(at, temporary.size(), target_.string());
+    throw Error({}, what);
+  }
 }
 
 void Beside::commit() {

@@ -13,11 +13,12 @@ layout(std430, binding = 4) readonly buffer Albedo { vec4 albedo[]; };
 layout(std430, binding = 5) buffer Total { vec4 total[]; };
 
 uniform uint rows, cluster;
+uniform bool plain;     // rows are the sums themselves; there are no weights
 uniform bool reflects;  // light leaves again, and is added up; otherwise what truncated rows leave below zero is darkness
 
 void put(uint row, vec3 light) {
   if (row >= rows) return;
-  vec4 e = vec4(scales[row] * light, 0.0);
+  vec4 e = vec4(plain ? sums[row].rgb : scales[row] * light, 0.0);
   if (reflects) {
     e *= albedo[row];
     total[row] += e;
@@ -34,7 +35,7 @@ void main() {
   if (row >= rows) return;
   uint basis = 16u * (row / cluster), word = 128u * (item / 8u) + item % 8u;
   vec3 one = vec3(0.0), other = vec3(0.0);
-  for (uint j = 0u; j < 16u; ++j) {
+  for (uint j = 0u; j < 16u && !plain; ++j) {
     vec3 b = sums[basis + j].rgb;
     int w = weights[word + 8u * j];
     one += float(bitfieldExtract(w, 0, 16)) * b;

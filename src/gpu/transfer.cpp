@@ -32,6 +32,7 @@ Transfer::Rows::Rows(const Context& context, const ClusterRows& r, const std::st
     : rows(r.rows),
       cluster(r.cluster),
       blocks(static_cast<uint32_t>(r.basis.blocks())),
+      plain(r.plain()),
       bytes(r.bytes()),
       first(context, r.basis.first, what),
       indices(context, r.basis.indices, what),
@@ -115,6 +116,7 @@ void Transfer::combine(const Rows& rows, const Buffer& answers, const Buffer& ou
   row_product_.use();
   row_product_.set("rows", rows.rows);
   row_product_.set("cluster", rows.cluster);
+  row_product_.set("plain", rows.plain ? 1 : 0);
   row_product_.set("reflects", reflected != nullptr ? 1 : 0);
   GLuint binding = 0;
   for (const Buffer* buffer : {&rows.weights, &rows.scales, &answers, &out}) buffer->bind(binding++);
@@ -128,16 +130,18 @@ void Transfer::bounce(const Bounces& b) const {
   b.sum.clear();
   answer(b.first, coefficients_);
   combine(b.first, b.first.sums, b.light, &b);
-  transform(b.light, b.nodes, b.coefficients);
-  answer(b.all, b.coefficients);
-  dense_product_.use();
-  const uint32_t rank = ClusterRows::kRank * b.all.blocks;
-  dense_product_.set("rank", rank);
-  GLuint binding = 0;
-  for (const Buffer* buffer : {&b.folded, &b.all.sums, &b.answers}) buffer->bind(binding++);
-  dispatch(rank);
-  buffers_written();
-  combine(b.all, b.answers, b.light, &b);
+  if (b.folded.bytes() > 0) {
+    transform(b.light, b.nodes, b.coefficients);
+    answer(b.all, b.coefficients);
+    dense_product_.use();
+    const uint32_t rank = ClusterRows::kRank * b.all.blocks;
+    dense_product_.set("rank", rank);
+    GLuint binding = 0;
+    for (const Buffer* buffer : {&b.folded, &b.all.sums, &b.answers}) buffer->bind(binding++);
+    dispatch(rank);
+    buffers_written();
+    combine(b.all, b.answers, b.light, &b);
+  }
   // The transform of a square whose blocks are all even: that of the blocks, times their side.
   transform(b.sum, b.nodes, coefficients_, std::sqrt(static_cast<float>(slots_ / b.nodes)), true);
 }

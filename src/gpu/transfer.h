@@ -32,6 +32,7 @@ class Transfer {
   struct Rows {
     Rows(const Context& context, const ClusterRows& rows, const std::string& what);
     uint32_t rows, cluster, blocks;
+    bool plain;
     std::size_t bytes;
     Buffer first, indices, codes, basis_scales, means, weights, scales;
     Buffer sums;  ///< the basis' answers

@@ -47,6 +47,12 @@ TEST_F(TransferTest, IsTheCpus) {
         made_up_operator({.slots = slots, .cluster = 64, .coefficients = 100, .bounce_coefficients = 40}));
   }
   expect_cpu(made_up_operator({.receivers = 16, .slots = 1024, .bounces = false}));
+  expect_cpu(made_up_operator({.receivers = 999,
+                               .slots = 1024,
+                               .plain = true,
+                               .cluster = 16,
+                               .first_cluster = 16,
+                               .node_cluster = 1024}));
   expect_cpu(made_up_operator(
       {.receivers = 17, .slots = 4096, .slots_per_node = 16, .first_cluster = 64, .node_cluster = 128}));
 }

@@ -50,21 +50,20 @@ std::vector<fs::path> files_of_any(const fs::path& path) {
   return {};
 }
 
-/// `kitchen.toml` of `kitchen.glb`, where it stands.
-std::optional<fs::path> side_file_of(const fs::path& scene) {
-  fs::path side = scene;
-  side.replace_extension(".toml");
-  std::error_code ec;
-  if (side == scene || !fs::is_regular_file(side, ec)) return std::nullopt;
-  return side;
-}
-
 }  // namespace
 
 std::span<const std::string_view> scene_endings() {
   static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx",  ".dae",
                                                   ".3ds", ".ply",  ".stl", ".blend"};
   return kEndings;
+}
+
+std::optional<fs::path> side_file_of(const fs::path& scene) {
+  fs::path side = scene;
+  side.replace_extension(".toml");
+  std::error_code ec;
+  if (side == scene || !fs::is_regular_file(side, ec)) return std::nullopt;
+  return side;
 }
 
 Scene import_scene(const fs::path& path, const Progress& progress) {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
+#include "scene/measuring_plane.h"
 #include "scene/scene.h"
 
 namespace sconce {
@@ -41,6 +44,14 @@ void apply_side_file(const std::filesystem::path& path, Scene& scene, const Prog
 /// What has no light at all gets an overcast sky of 10,000 lx, and a warning that names the ways to add
 /// lamps.
 void add_default_sky(Scene& scene, const Progress& progress = {});
+
+/// `kitchen.toml` of `kitchen.glb`, where it stands.
+std::optional<std::filesystem::path> side_file_of(const std::filesystem::path& scene);
+
+/// [[plane]] of the side file: names and measuring planes. @param bounds  of the scene's world, metres
+/// @throws Error with file:line
+std::vector<std::pair<std::string, MeasuringPlane>> import_planes(const std::filesystem::path& scene,
+                                                                  const Bounds& bounds);
 
 /// Files besides `path` that the scene was read from (buffers, textures, side file), for content hashes.
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& path);

@@ -18,18 +18,22 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 
 using Apply = void (*)(const SideContext&, const SideNode&);
 
-/// `[[light]]`: every table of an array. One plain table `[light]` serves as well.
-void for_each_table(const SideContext& context, const SideNode& root, const std::string& key, Apply apply) {
-  const SideNode* node = root.find(key);
-  if (node == nullptr) return;
-  if (const auto* array = std::get_if<SideNode::Array>(&node->value)) {
-    for (const SideNode& item : *array) apply(context, item);
-  } else {
-    apply(context, *node);
-  }
+void for_each_table(const SideContext& context, const SideNode& root, std::string_view key, Apply apply) {
+  for (const SideNode* node : side_tables(root, key)) apply(context, *node);
 }
 
 }  // namespace
+
+std::vector<const SideNode*> side_tables(const SideNode& root, std::string_view key) {
+  const SideNode* node = root.find(key);
+  if (node == nullptr) return {};
+  std::vector<const SideNode*> tables;
+  if (const auto* array = std::get_if<SideNode::Array>(&node->value))
+    for (const SideNode& item : *array) tables.push_back(&item);
+  else
+    tables.push_back(node);
+  return tables;
+}
 
 std::vector<std::string> node_names(const Scene& scene) {
   return names_of(scene.instances);
@@ -65,9 +69,9 @@ Mat4 looking(const Vec3& position, const Vec3& direction, const Vec3& up) {
 
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress) {
   const SideNode root = parse_side_file(path);
-  const SideTable file(
-      path.string(), "the side file", root,
-      {"scene", "light", "luminaire", "group", "emission", "camera", "sun", "sky", "material", "options"});
+  const SideTable file(path.string(), "the side file", root,
+                       {"scene", "light", "luminaire", "group", "emission", "camera", "sun", "sky",
+                        "material", "plane", "options"});
   const SideContext context{path, scene, progress};
   if (const SideNode* whole = root.find("scene")) apply_scene(context, *whole);
   // Groups come last: they also name lamps that this file adds.

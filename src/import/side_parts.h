@@ -22,6 +22,9 @@ struct SideContext {
   const Progress& progress;
 };
 
+/// `[[light]]`: every table of an array. One plain table `[light]` serves as well.
+std::vector<const SideNode*> side_tables(const SideNode& root, std::string_view key);
+
 /// Before all other tables: they speak of the scene as it then stands.
 void apply_scene(const SideContext& context, const SideNode& node);
 void apply_light(const SideContext& context, const SideNode& node);

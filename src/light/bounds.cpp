@@ -59,20 +59,21 @@ LampBounds make_bounds(std::span<const Lamp> lamps, float scene_radius2) {
 void Lamps::importances(const Vec3& x, const Vec3& n, std::span<float> out) const {
   const LampBounds& b = bounds_;
   const std::size_t count = out.size();
+  const float below = n == Vec3(0) ? -1.0f : 0.0f;  // without a normal there is no horizon
   for (std::size_t i = 0; i < count; ++i) {
     const float tx = b.x[i] - x.x, ty = b.y[i] - x.y, tz = b.z[i] - x.z;
     const float height = tx * n.x + ty * n.y + tz * n.z;
     const float ahead = b.axis_x[i] * x.x + b.axis_y[i] * x.y + b.axis_z[i] * x.z;
     const float d2 = tx * tx + ty * ty + tz * tz;
     const float importance = scene_radius2_ / std::max(d2, b.least2[i]);
-    const bool lit = (height > -b.radius[i]) & (ahead >= b.plane[i]) & (d2 < b.range2[i]);
+    const bool lit = (height > below - b.radius[i]) & (ahead >= b.plane[i]) & (d2 < b.range2[i]);
     out[i] = lit ? importance : 0.0f;
   }
   for (const auto& [i, axis, cosine] : b.cones) {
     const Vec3 from = x - Vec3(b.x[i], b.y[i], b.z[i]);
     if (glm::dot(from, axis) <= cosine * glm::length(from)) out[i] = 0;
   }
-  for (const auto& [i, direction] : b.suns) out[i] = glm::dot(direction, n) > 0 ? 1.0f : 0.0f;
+  for (const auto& [i, direction] : b.suns) out[i] = glm::dot(direction, n) > below ? 1.0f : 0.0f;
   for (const uint32_t i : b.everywhere) out[i] = 1;
 }
 

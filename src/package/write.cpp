@@ -15,6 +15,7 @@
 #include "package/glb.h"
 #include "package/layer_file.h"
 #include "package/manifest.h"
+#include "package/points.h"
 
 namespace fs = std::filesystem;
 
@@ -114,12 +115,18 @@ struct Job {
 
 class Writer {
  public:
-  explicit Writer(PackageContents& contents) : c_(contents), m_(contents.manifest) {
+  Writer(PackageContents& contents, const std::map<std::string, Image>& points)
+      : c_(contents), m_(contents.manifest) {
     names_ = layer_names(m_.groups);
     add_layers(c_.layers, kLayerFolder, m_.layers);
     if (!c_.raw.empty()) add_layers(c_.raw, kRawFolder, m_.raw);
     add_pages();
     add_sky();
+    for (const auto& [name, image] : points)
+      jobs_.push_back({name, [&image](const fs::path& f) {
+                         check_finite(image, f, 0, [&](std::size_t c) { return image.channels[c]; });
+                         write_exr(f, image, PixelType::full);
+                       }});
     jobs_.push_back(
         {"scene.glb", [this](const fs::path& f) { write_file(f, write_glb(c_.scene, m_.generator)); }});
     if (!c_.layout.empty())
@@ -330,23 +337,19 @@ void keep_operators(const fs::path& before, const Manifest& now, const fs::path&
 }  // namespace
 
 void write_package(const fs::path& path, PackageContents contents) {
+  write_package(path, std::move(contents), {});
+}
+
+void write_package(const fs::path& path, PackageContents contents,
+                   const std::map<std::string, Image>& points) {
   check_target(path);
   check(contents);
-  Writer writer(contents);
+  Writer writer(contents, points);
   Beside beside(path);
-  try {
-    writer.run(beside.path());
-    keep_operators(path, contents.manifest, beside.path());
-  } catch (const fs::filesystem_error& e) {
-    throw Error(path.string(), "cannot be written: " + e.code().message());
-  } catch (const Error& e) {
-    // The user knows the package by its own name, not by the one it is written under.
-    std::string what = e.what();
-    const std::string temporary = beside.path().string();
-    if (const std::size_t at = what.find(temporary); at != std::string::npos)
-      what.replace(at, temporary.size(), path.string());
-    throw Error({}, what);
-  }
+  beside.fill([&](const fs::path& folder) {
+    writer.run(folder);
+    keep_operators(path, contents.manifest, folder);
+  });
   beside.commit();
 }
 

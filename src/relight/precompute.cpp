@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "gather/row_rays.h"
+#include "relight/chapter_operator.h"
 #include "relight/operator_start.h"
 #include "relight/training_lights.h"
 
@@ -221,6 +222,8 @@ void check(const TransferParams& p) {
   positive("--coefficients", p.coefficients, 65536);
   positive("--bounce-coefficients", p.bounce_coefficients, 65536);
   positive("--points", p.points, 256);
+  positive("--photons", p.photons, 1 << 30);
+  positive("--nearest", p.nearest, 1 << 20);
 }
 
 Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
@@ -229,6 +232,8 @@ Operator make_operator(const TracedScene& traced, const RelightReceivers& receiv
   if (!params.transmission.empty() && params.transmission.size() != traced.scene.materials.size())
     throw UsageError("transmission", std::to_string(params.transmission.size()) + " values",
                      "one for each material: " + std::to_string(traced.scene.materials.size()));
+  if (params.method == TransferMethod::chapter)
+    return make_chapter_operator(traced, receivers, params, scene, work);
   OperatorStart start(traced, receivers, params, static_cast<std::size_t>(params.cluster), work.progress);
   Operator op = std::move(start.op);
   op.scene = scene;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a direct-to-indirect operator: cloud, rows of the final gather F and of the cloud's own kernel K by
 // cosine-distributed rays that end on the cloud (methods.md 2.4), both fitted to
-// the light of lamps at many places.
+// the light of lamps at many places. Or as system C's chapter does, to compare with: chapter_operator.h.
 #pragma once
 
 #include "relight/receivers.h"
@@ -9,15 +9,21 @@
 
 namespace sconce {
 
+enum class TransferMethod : uint8_t { fitted, chapter };
+
 struct TransferParams {
-  std::size_t gather = 65536;     ///< slots of the cloud's square: a power of four, 256 to 65,536
-  int rays = 512;                 ///< per receiver
-  int cluster = 256;              ///< receivers that share a basis, a multiple of 16
-  int coefficients = 1024;        ///< of a basis
-  int bounce_coefficients = 512;  ///< of a basis, for light that was reflected
-  int points = 4;                 ///< per slot, where direct light is asked for
-  int lights = 256;               ///< that rows are fitted to
-  bool keep_sums = false;         ///< of rows: even light is exact, lamps less so (ADR 29)
+  TransferMethod method = TransferMethod::fitted;
+  std::size_t gather = 65536;               ///< slots of the cloud's square: a power of four, 256 to 65,536
+  int rays = 512;                           ///< per receiver
+  int cluster = 256;                        ///< receivers that share a basis, a multiple of 16
+  int coefficients = 1024;                  ///< of a basis
+  int bounce_coefficients = 512;            ///< of a basis, for light that was reflected
+  int points = 4;                           ///< per slot, where direct light is asked for
+  int lights = 256;                         ///< that rows are fitted to
+  bool keep_sums = false;                   ///< of rows: even light is exact, lamps less so (ADR 29)
+  Weighting choice = Weighting::root_area;  ///< of coefficients; this and what follows: of the chapter
+  int photons = 1'000'000;                  ///< that the cloud sends
+  int nearest = 1000;                       ///< of these, looked at from each slot
   /// Per Scene material: share of light that goes straight on behind it, whatever its own adds. Empty: none.
   std::vector<float> transmission;
   uint32_t seed = 1;

@@ -150,7 +150,7 @@ void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> l
   }
 }
 
-RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height) {
+RelightReceivers pixel_receivers(const TracedScene& traced, const Camera& camera, int width, int height) {
   PictureParams params;
   params.width = width, params.height = height;
   const Lens lens(camera, params);
@@ -159,7 +159,7 @@ RelightReceivers pixel_receivers(const View& view, const Camera& camera, int wid
   parallel_for(pixels, 1024, [&](std::size_t i) {
     const auto x = static_cast<float>(i % static_cast<std::size_t>(width)),
                y = static_cast<float>(i / static_cast<std::size_t>(width));
-    hits[i] = view.tracer().closest({lens.eye(), lens.direction({x + 0.5f, y + 0.5f})});
+    hits[i] = traced.tracer.closest({lens.eye(), lens.direction({x + 0.5f, y + 0.5f})});
   });
   const auto kept = std::make_shared<std::vector<Hit>>();
   RelightReceivers out;
@@ -168,16 +168,16 @@ RelightReceivers pixel_receivers(const View& view, const Camera& camera, int wid
   out.camera = camera;
   for (std::size_t i = 0; i < pixels; ++i) {
     const Hit& hit = hits[i];
-    if (!hit || (hit.back && !view.scene()[view.world().materials[hit.triangle]].double_sided)) continue;
+    if (!hit || (hit.back && !traced.scene[traced.world.materials[hit.triangle]].double_sided)) continue;
     out.places.push_back(static_cast<uint32_t>(i));
     kept->push_back(hit);
   }
   out.source.count = kept->size();
-  out.source.footprint = [kept, &view, places = out.places](std::size_t i) {
-    return Footprint::point(places[i], ReceiverKind::pixel, surface_point(view.world(), (*kept)[i]));
+  out.source.footprint = [kept, traced, places = out.places](std::size_t i) {
+    return Footprint::point(places[i], ReceiverKind::pixel, surface_point(traced.world, (*kept)[i]));
   };
-  out.albedo = [kept, &view](std::size_t i) {
-    return shade(view.scene(), view.world(), (*kept)[i].triangle, (*kept)[i].barycentric).receiver_albedo();
+  out.albedo = [kept, traced](std::size_t i) {
+    return shade(traced.scene, traced.world, (*kept)[i].triangle, (*kept)[i].barycentric).receiver_albedo();
   };
   return out;
 }

@@ -42,8 +42,7 @@ void add_to_pages(const Package& package, const View& view, const Operator& op, 
 void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light,
                   std::vector<Image>& pages);
 
-/// What the middles of pixels see; pixels that see nothing or a black back are none. The view must outlive
-/// it.
-RelightReceivers pixel_receivers(const View& view, const Camera& camera, int width, int height);
+/// What the middles of pixels see; pixels that see nothing or a black back are none.
+RelightReceivers pixel_receivers(const TracedScene& traced, const Camera& camera, int width, int height);
 
 }  // namespace sconce

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <limits>
+#include <optional>
 
 #include "core/sobol.h"
 
@@ -15,14 +16,18 @@ constexpr uint32_t kNone = 0xffffffffu, kSeenStream = 0x7365656eu;
 }  // namespace
 
 Relighter::Relighter(const Package& package, const View& view, const Operator& op,
-                     const FoldedBounces& bounces, const MovedLamps& lamps)
+                     const FoldedBounces& bounces, const MovedLamps& lamps, float cull)
     : package_(package), view_(view), op_(op), lamps_(lamps) {
   using Clock = std::chrono::steady_clock;
+  const std::optional<Culling> culling = cull > 0 ? std::optional<Culling>(op.gather) : std::nullopt;
   const auto start = Clock::now();
   std::vector<Rgbx> light = light_cloud(op, lamps);
   const auto lit = Clock::now();
   indirect_.resize(op.gather.rows);
-  bounces.indirect(light, indirect_);
+  if (culling)
+    culled_ = bounces.indirect(light, indirect_, *culling, cull);
+  else
+    bounces.indirect(light, indirect_);
   seconds_.direct = std::chrono::duration<double>(lit - start).count();
   seconds_.indirect = std::chrono::duration<double>(Clock::now() - lit).count();
   if (op.kind == OperatorReceivers::pixels) {

@@ -11,8 +11,9 @@ namespace sconce {
 class Relighter {
  public:
   /// Lights the cloud and sends its light to all receivers. All but the bounces must outlive it.
+  /// @param cull  Culling::apply()'s share; 0 = nothing is left out
   Relighter(const Package& package, const View& view, const Operator& op, const FoldedBounces& bounces,
-            const MovedLamps& lamps);
+            const MovedLamps& lamps, float cull = 0);
 
   /// E_i per receiver, lux.
   const std::vector<Rgb>& indirect() const { return indirect_; }
@@ -26,6 +27,7 @@ class Relighter {
     double direct = 0, indirect = 0;  ///< on the cloud; from there to the receivers
   };
   const Seconds& seconds() const { return seconds_; }
+  const Culling::Report& culled() const { return culled_; }
 
  private:
   Rgb nearest_pixel(const SurfacePoint& at, int x, int y) const;
@@ -37,6 +39,7 @@ class Relighter {
   std::vector<Rgb> indirect_;
   std::vector<uint32_t> receiver_of_;  ///< of pixels: per pixel
   Seconds seconds_;
+  Culling::Report culled_;
 };
 
 }  // namespace sconce

@@ -3,6 +3,9 @@
 
 #include <xxhash.h>
 
+#include <cerrno>
+#include <cstring>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/ranks.h"
@@ -61,9 +64,11 @@ TransferState::TransferState(const std::filesystem::path& path, const std::strin
     if (ec || !file_) throw Error(path.string(), "cannot be written");
     return;
   }
-  file_.reset(std::fopen(path.c_str(), "wb"));
-  if (!file_ || std::fwrite(begin.data(), begin.size(), 1, file_.get()) != 1)
-    throw Error(path.string(), "cannot be written");
+  Beside beside(path);
+  file_.reset(std::fopen(beside.path().c_str(), "wb"));
+  if (!file_ || std::fwrite(begin.data(), begin.size(), 1, file_.get()) != 1 || std::fflush(file_.get()) != 0)
+    throw Error(path.string(), std::string("cannot be written: ") + std::strerror(errno));
+  beside.commit();
 }
 
 std::string_view TransferState::find(std::size_t cluster) const {
@@ -76,7 +81,7 @@ void TransferState::put(std::size_t cluster, std::string_view bytes) {
   const RecordHead record{cluster, bytes.size(), XXH3_64bits(bytes.data(), bytes.size())};
   if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1 ||
       std::fwrite(bytes.data(), bytes.size(), 1, file_.get()) != 1 || std::fflush(file_.get()) != 0)
-    throw Error(path_.string(), "cannot be written");
+    throw Error(path_.string(), std::string("cannot be written: ") + std::strerror(errno));
 }
 
 void TransferState::remove() {

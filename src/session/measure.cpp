@@ -11,41 +11,6 @@
 
 namespace sconce {
 
-void MeasuringPlane::check() const {
-  if (columns < 1 || rows < 1 || columns > 1000 || rows > 1000)
-    throw UsageError({}, "a measuring plane needs points", "1 to 1000 columns and rows");
-  if (!(glm::length(glm::cross(across, along)) > 1e-6f))
-    throw UsageError({}, "a measuring plane needs an area");
-}
-
-Vec3 MeasuringPlane::point(int column, int row) const {
-  const float u = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
-  const float v = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
-  return corner + u * across + v * along;
-}
-
-std::vector<SurfacePoint> MeasuringPlane::points() const {
-  check();
-  std::vector<SurfacePoint> all;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) all.push_back({point(column, row), normal(), normal()});
-  return all;
-}
-
-MeasuringPlane horizontal_plane(const Bounds& bounds, float height, float spacing) {
-  const Vec3 size = bounds.hi - bounds.lo;
-  const auto margin = [](float side) { return std::min(0.5f, 0.1f * side); };
-  const auto count = [&](float side) {
-    return std::clamp(static_cast<int>(std::ceil(side / std::max(spacing, 0.01f))), 1, 200);
-  };
-  MeasuringPlane plane;
-  plane.corner = {bounds.lo.x + margin(size.x), bounds.lo.y + height, bounds.hi.z - margin(size.z)};
-  plane.across = {size.x - 2 * margin(size.x), 0, 0};
-  plane.along = {0, 0, -(size.z - 2 * margin(size.z))};
-  plane.columns = count(plane.across.x), plane.rows = count(-plane.along.z);
-  return plane;
-}
-
 Rgb MeasuredLight::mixed(std::size_t point, const MixSpec& mix) const {
   Rgb sum;
   for (std::size_t g = 0; g < groups; ++g) sum += mix.weights.at(g) * values[point * groups + g];

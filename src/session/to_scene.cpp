@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -91,12 +92,14 @@ SceneFiles write_scene(const fs::path& glb, const Package& package, const MixSpe
       out.warnings.push_back("luminaire '" + luminaire.name +
                              "' lights as from far: glTF holds no light field");
   std::string text = kHead;
+  std::optional<Beside> sky;
   for (const Light& light : scene.lights) {
-    const auto* sky = std::get_if<SkyLight>(&light.shape);
-    if (sky == nullptr) continue;
-    Image radiance = sky->image;
+    const auto* shape = std::get_if<SkyLight>(&light.shape);
+    if (shape == nullptr) continue;
+    Image radiance = shape->image;
     for (std::size_t i = 0; i < radiance.data.size(); ++i) radiance.data[i] *= (&light.intensity.r)[i % 3];
-    write_exr(picture, radiance, PixelType::full);
+    sky.emplace(picture);
+    sky->fill([&](const fs::path& path) { write_exr(path, radiance, PixelType::full); });
     out.files.push_back(picture);
     const Vec3 z(light.frame[2]);
     const std::string group = light.group ? scene[light.group].name : "sky";
@@ -105,8 +108,13 @@ SceneFiles write_scene(const fs::path& glb, const Package& package, const MixSpe
                         glm::degrees(std::atan2(z.x, z.z)), nlohmann::json(group).dump());
   }
   std::erase_if(scene.lights, [](const Light& l) { return std::holds_alternative<SkyLight>(l.shape); });
+  // All is written before the first is put in place.
+  Beside beside(glb);
+  beside.fill(
+      [&](const fs::path& path) { write_file(path, write_glb(scene, package.manifest().generator)); });
   write_file(side, text);
-  write_file(glb, write_glb(scene, package.manifest().generator));
+  if (sky) sky->commit();
+  beside.commit();
   out.files.insert(out.files.begin(), {glb, side});
   return out;
 }

@@ -11,6 +11,12 @@
 
 namespace sconce {
 
+/// Uniform direction, density 1/(4 pi).
+inline Vec3 square_to_sphere(Vec2 u) {
+  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
 /// What a path knows of the light at its hits besides what it finds itself: nothing.
 struct NoCache {
   /// Adds to the sums throughput times the illuminance at the end of ray number `depth` (0: the receiver's),
@@ -46,7 +52,8 @@ class PathKernel {
     }
   }
 
-  /// Adds one sample of E_g, lux. @tparam Sums  of solve/sums.h
+  /// Adds one sample of E_g, lux; at a probe of e = 1/4 the integral of L over the whole sphere, whose g is
+  /// 1/2 the integral of L w, as a surface's (docs/adr/0038-probes.md). @tparam Sums  of solve/sums.h
   template <class Sums>
   void sample(const Footprint& receiver, uint32_t stream, uint32_t index, Sums sums) {
     const uint32_t reversed = detail::reverse_bits(index);
@@ -55,20 +62,25 @@ class PathKernel {
     for (uint32_t depth = 0;; ++depth) {
       const auto bits = [&](uint32_t slot) { return sobol_bits(reversed, 3 * depth + slot, stream); };
       const Vec2 choice = bits(1).unit();
-      picker_.aim(at.position, at.shading_normal, depth == 0 ? budget_.receiver : budget_.bounce);
-      const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
+      const bool probe = depth == 0 && receiver.kind == ReceiverKind::probe;
+      picker_.aim(at.position, probe ? Vec3(0) : at.shading_normal,
+                  depth == 0 ? budget_.receiver : budget_.bounce);
+      const Vec3 start =
+          probe ? at.position : offset_origin(at.position, at.geometric_normal, at.geometric_normal);
       const float clearance = 4 * glm::distance(start, at.position);
       const SobolBits on_lamps = bits(2);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
         next_event(at, start, clearance, lamp, expected,
-                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, depth == 0, sums);
+                   on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, depth == 0, probe,
+                   sums);
       });
       const bool last = bounces_ >= 0 && depth >= static_cast<uint32_t>(bounces_);
       if (last && !area_lights_) return;
 
-      const Vec3 direction = Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
-      const float cosine = glm::dot(direction, at.shading_normal);
-      if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
+      const Vec3 direction = probe ? square_to_sphere(bits(0).unit())
+                                   : Frame(at.shading_normal).to_world(square_to_cosine(bits(0).unit()));
+      const float cosine = probe ? kProbe : glm::dot(direction, at.shading_normal);
+      if (!(cosine > 0) || (!probe && !(glm::dot(direction, at.geometric_normal) > 0))) return;
       if (depth == 0) sums.aim(direction, std::max(cosine, kGrazing));
       const auto [hit, passed] = rays_.follow(
           {start, direction}, [&] { return sobol_bits(reversed, kPanePair - depth, stream).unit().x; });
@@ -108,6 +120,8 @@ class PathKernel {
 
  private:
   static constexpr uint32_t kFootprintPair = 0xffffff00u, kPanePair = kFootprintPair - 1;
+  /// What a probe has in place of the cosine; its rays' density is that over pi, as a surface's.
+  static constexpr float kProbe = 0.25f;
   /// g divides by the cosine that the receiver's rays are sampled with: light that comes in flatter than this
   /// (2.9 degrees) counts less in g, so that its noise stays finite. Lamps that are sampled need no such
   /// bound.
@@ -116,14 +130,15 @@ class PathKernel {
   /// @param start      where rays leave the surface
   /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
   /// @param first      at the receiver itself
+  /// @param probe      which has no horizon
   template <class Sums>
   void next_event(const SurfacePoint& at, const Vec3& start, float clearance, uint32_t lamp, float expected,
-                  Vec2 u, const Rgb& throughput, bool first, Sums& sums) {
+                  Vec2 u, const Rgb& throughput, bool first, bool probe, Sums& sums) {
     if (wanted_[lamp] == 0) return;
     LightSample light;
     if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
-    const float cosine = glm::dot(light.direction, at.shading_normal);
-    if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) return;
+    const float cosine = probe ? kProbe : glm::dot(light.direction, at.shading_normal);
+    if (!(cosine > 0) || (!probe && !(glm::dot(light.direction, at.geometric_normal) > 0))) return;
     const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
     const Rgb passed = end > 0 ? rays_.transmittance({start, light.direction, end}) : Rgb(1.0f);
     if (passed.is_black()) return;
@@ -155,7 +170,8 @@ class PathKernel {
 template <class Kernel>
 void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams& params,
                     std::span<GroupValue> out) {
-  const std::size_t values = out.size(), groups = values / coefficients(params.basis);
+  const Basis basis = receiver.kind == ReceiverKind::probe ? Basis::sh1 : params.basis;
+  const std::size_t values = out.size(), groups = values / coefficients(basis);
   const uint32_t most = static_cast<uint32_t>(std::max(1, (params.samples + kBatches - 1) / kBatches));
   std::vector<double> sums(kBatches * 3 * values, 0.0);
   std::vector<double> luma(kBatches * values);
@@ -164,7 +180,7 @@ void solve_receiver(Kernel& kernel, const Footprint& receiver, const BakeParams&
   };
   const uint32_t stream = mix32(params.seed, receiver.id);
   const auto sample = [&](uint32_t index, std::span<double> into) {
-    if (params.basis == Basis::flat)
+    if (basis == Basis::flat)
       kernel.sample(receiver, stream, index, FlatSums{into});
     else
       kernel.sample(receiver, stream, index, Sh1Sums(into));

@@ -2,7 +2,6 @@
 #include "solve/photon_map.h"
 
 #include <atomic>
-#include <nanoflann.hpp>
 
 #include "core/parallel.h"
 #include "core/sobol.h"
@@ -11,8 +10,6 @@ namespace sconce {
 
 namespace {
 
-constexpr float kAgree = 0.7f;  // least cosine between the normals of a photon and of the place it counts for
-constexpr float kSlab = 0.1f;   // largest distance of a photon from the place's plane, in reaches
 constexpr uint32_t kPanePair = 0xfffffeffu;  // no landing's pair
 constexpr std::size_t kChunk = 4096;         // photons traced at a time
 
@@ -88,68 +85,7 @@ class PhotonTracer {
   uint32_t stream_;
 };
 
-/// What nanoflann sees of the photons.
-struct Points {
-  const std::vector<Photon>& photons;
-
-  std::size_t kdtree_get_point_count() const { return photons.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return photons[i].position[static_cast<int>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-/// The nearest photons that pass the query's tests, as a heap whose top is the furthest; a result set of
-/// nanoflann. Ties go to the lower index.
-class Nearest {
- public:
-  using DistanceType = float;
-
-  Nearest(const std::vector<Photon>& photons, const PhotonMap::Query& query, float reach,
-          std::vector<std::pair<float, uint32_t>>& heap)
-      : photons_(photons), query_(query), limit_(reach * reach), slab_(kSlab * reach), heap_(heap) {
-    heap_.clear();
-  }
-  bool full() const { return heap_.size() == query_.count; }
-  float worstDist() const { return full() ? heap_.front().first : limit_; }
-  bool addPoint(float distance2, uint32_t index) {
-    const Photon& p = photons_[index];
-    if (p.reflections < query_.least_reflections || p.reflections > query_.most_reflections) return true;
-    const Vec3 normal(p.normal[0], p.normal[1], p.normal[2]);
-    if (glm::dot(normal, query_.normal) < 127 * kAgree) return true;
-    if (std::abs(glm::dot(p.position - query_.position, query_.normal)) > slab_) return true;
-    const std::pair<float, uint32_t> entry(distance2, index);
-    if (full()) {
-      if (!(entry < heap_.front())) return true;
-      std::pop_heap(heap_.begin(), heap_.end());
-      heap_.back() = entry;
-    } else {
-      heap_.push_back(entry);
-    }
-    std::push_heap(heap_.begin(), heap_.end());
-    return true;
-  }
-
- private:
-  const std::vector<Photon>& photons_;
-  const PhotonMap::Query& query_;
-  float limit_, slab_;
-  std::vector<std::pair<float, uint32_t>>& heap_;
-};
-
 }  // namespace
-
-struct PhotonMap::Tree {
-  using Index =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3, uint32_t>;
-  Points points;
-  Index index;
-
-  explicit Tree(const std::vector<Photon>& photons) : points{photons}, index(3, points, {16}) {}
-};
 
 PhotonMap::PhotonMap(const SolveContext& context, int landings, std::size_t photons, uint32_t seed,
                      const Progress& progress) {
@@ -178,27 +114,21 @@ PhotonMap::PhotonMap(const SolveContext& context, int landings, std::size_t phot
   for (std::size_t t = 0; t < context.world.size(); ++t)
     area_ +=
         static_cast<double>(context.world.area(t)) / static_cast<double>(std::max<std::size_t>(1, total));
-  tree_ = std::make_unique<Tree>(photons_);
+  tree_ = std::make_unique<PhotonTree<Photon>>(photons_);
 }
-
-PhotonMap::~PhotonMap() = default;
 
 void PhotonMap::density(const Query& query, Density& out) const {
   out.radius = out.scale = out.offset = 0;
   const double fair = static_cast<double>(query.count) * area_ / static_cast<double>(kPi);
   const float reach = static_cast<float>(2 * std::sqrt(fair));
-  Nearest found(photons_, query, reach, out.nearest);
-  if (!photons_.empty()) tree_->index.findNeighbors(found, &query.position.x, {});
+  const auto accept = [&](const Photon& p) {
+    return p.reflections >= query.least_reflections && p.reflections <= query.most_reflections;
+  };
+  const float radius =
+      tree_->nearest({query.position, query.normal, query.count, reach}, accept, out.nearest);
   out.sparse = out.nearest.size() < query.count / 4;
   if (out.nearest.empty()) return;
-  out.radius = reach;
-  if (found.full()) {
-    // The k-th only says how large the disk is: counted in, it would make the density too large by k / (k -
-    // 1).
-    out.radius = std::sqrt(out.nearest.front().first);
-    std::pop_heap(out.nearest.begin(), out.nearest.end());
-    out.nearest.pop_back();
-  }
+  out.radius = radius;
   Vec3 centroid(0);
   for (const auto& [distance2, i] : out.nearest) centroid += photons_[i].position - query.position;
   out.offset = glm::length(centroid) / (out.radius * static_cast<float>(out.nearest.size()));

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
+#include "gather/photon_tree.h"
 #include "solve/solver.h"
 
 namespace sconce {
@@ -28,7 +28,6 @@ class PhotonMap {
   /// @param photons   emitted by all lamps together, shared out evenly
   PhotonMap(const SolveContext& context, int landings, std::size_t photons, uint32_t seed,
             const Progress& progress);
-  ~PhotonMap();
   PhotonMap(const PhotonMap&) = delete;
   PhotonMap& operator=(const PhotonMap&) = delete;
 
@@ -47,8 +46,8 @@ class PhotonMap {
     float scale = 0;   ///< 1 / m2; 0 where there are none
     float offset =
         0;  ///< distance of their centroid from the query, in radii: large at edges of surfaces and shadows
-    bool sparse = false;                              ///< fewer than a quarter of the asked for lie in reach
-    std::vector<std::pair<float, uint32_t>> nearest;  ///< squared distance and photon, in no order
+    bool sparse = false;  ///< fewer than a quarter of the asked for lie in reach
+    NearPhotons nearest;
   };
   /// @param out  reused from call to call
   void density(const Query& query, Density& out) const;
@@ -56,9 +55,8 @@ class PhotonMap {
   const Photon& operator[](std::size_t i) const { return photons_[i]; }
 
  private:
-  struct Tree;
   std::vector<Photon> photons_;
-  std::unique_ptr<Tree> tree_;
+  std::unique_ptr<PhotonTree<Photon>> tree_;
   double area_ = 0;  ///< of the scene per photon, m2
 };
 

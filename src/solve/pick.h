@@ -13,7 +13,7 @@ class LampPicker {
  public:
   explicit LampPicker(const Lamps& lamps) : lamps_(&lamps), expected_(lamps.size()) {}
 
-  /// Decides how often each lamp is sampled at (x, n), 0 or 1 times, about `rays` in all.
+  /// Decides how often each lamp is sampled at (x, n), 0 or 1 times, about `rays` in all; n = 0: all around.
   void aim(const Vec3& x, const Vec3& n, int rays);
   /// Expected number of samples of lamp i at the last aim(): the factor of its density in MIS weights.
   float expected(std::size_t i) const { return expected_[i]; }

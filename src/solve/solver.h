@@ -62,7 +62,7 @@ class Solver {
   virtual ~Solver() = default;
   /// All groups of one receiver at once. Thread-safe; a pure function of the footprint (its id names the
   /// random numbers).
-  /// @param out  [coefficient * groups + group] of the scene's groups and the basis it was prepared for
+  /// @param out  [coefficient * groups + group] of the scene's groups and its basis; of probes always sh1
   virtual void solve(const Footprint& receiver, std::span<GroupValue> out) const = 0;
   /// Another number of samples than it was prepared with, for a bake that learns only then how many its time
   /// allows. @return false: it has no such number

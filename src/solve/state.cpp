@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/files.h"
 
 namespace sconce {
 
@@ -54,7 +55,8 @@ BakeState BakeState::create(const std::filesystem::path& path, const BakeHeader&
   BakeState state;
   state.path_ = path;
   state.header_ = header;
-  state.file_ = std::fopen(path.c_str(), "w+b");
+  Beside beside(path);
+  state.file_ = std::fopen(beside.path().c_str(), "w+b");
   if (state.file_ == nullptr) fail(path, "cannot be written");
   std::string head(kMagic, sizeof kMagic);
   put(head, header.hash);
@@ -65,16 +67,17 @@ BakeState BakeState::create(const std::filesystem::path& path, const BakeHeader&
   head.append(reinterpret_cast<const char*>(&header.tile_size), sizeof header.tile_size);
   if (std::fwrite(head.data(), head.size(), 1, state.file_) != 1 || std::fflush(state.file_) != 0)
     fail(path, "cannot be written");
+  beside.commit();
   const std::size_t tiles = (header.receivers + header.tile_size - 1) / header.tile_size;
   state.offsets_.resize(tiles);
   state.made_with_.resize(tiles);
   return state;
 }
 
-BakeState BakeState::open(const std::filesystem::path& path) {
+BakeState BakeState::open(const std::filesystem::path& path, bool append) {
   BakeState state;
   state.path_ = path;
-  state.file_ = std::fopen(path.c_str(), "r+b");
+  state.file_ = std::fopen(path.c_str(), append ? "r+b" : "rb");
   if (state.file_ == nullptr) fail(path, "cannot be opened");
   char magic[sizeof kMagic];
   BakeHeader& h = state.header_;
@@ -87,11 +90,11 @@ BakeState BakeState::open(const std::filesystem::path& path) {
   const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
   state.offsets_.resize(tiles);
   state.made_with_.resize(tiles);
-  state.scan();
+  state.scan(append);
   return state;
 }
 
-void BakeState::scan() {
+void BakeState::scan(bool repair) {
   std::vector<GroupValue> values;
   for (;;) {
     const long start = std::ftell(file_);
@@ -109,7 +112,7 @@ void BakeState::scan() {
     }();
     if (!whole) {
       // Whatever was being written when the process died: cut it off, so that appends follow a whole record.
-      if (::ftruncate(fileno(file_), start) != 0) fail(path_, "cannot be repaired");
+      if (repair && ::ftruncate(fileno(file_), start) != 0) fail(path_, "cannot be repaired");
       std::fseek(file_, start, SEEK_SET);
       return;
     }

@@ -31,8 +31,10 @@ class BakeState {
  public:
   /// Starts a new file. @throws Error when it cannot be written
   static BakeState create(const std::filesystem::path& path, const BakeHeader& header);
-  /// Opens an existing file; a torn record at the end is dropped. @throws Error: not a bake state, or damaged
-  static BakeState open(const std::filesystem::path& path);
+  /// Opens an existing file; a torn record at the end does not count.
+  /// @param append  cut that off and go on; otherwise the file stays as it is
+  /// @throws Error: not a bake state, or damaged
+  static BakeState open(const std::filesystem::path& path, bool append);
 
   BakeState(BakeState&&) noexcept;
   ~BakeState();
@@ -52,7 +54,7 @@ class BakeState {
 
  private:
   BakeState() = default;
-  void scan();
+  void scan(bool repair);
 
   std::filesystem::path path_;
   BakeHeader header_;

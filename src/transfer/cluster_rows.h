@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A matrix whose rows come in clusters of neighbours: each row is a combination of its cluster's sixteen
-// basis rows, and these are wavelet rows (methods.md 2.5, "clustered low rank + wavelet basis").
+// basis rows, and these are wavelet rows (methods.md 2.5, "clustered low rank + wavelet basis"). Or plain
+// wavelet rows, in the same form.
 #pragma once
 
 #include "transfer/training.h"
@@ -14,9 +15,11 @@ struct ClusterRows {
 
   uint32_t rows = 0, cluster = 0;    ///< rows, and rows per cluster: a multiple of kLanes; the last has fewer
   WaveletRows basis;                 ///< kRank per cluster: one block
-  std::span<const int16_t> weights;  ///< per kLanes rows (filled up): kRank x kLanes
+  std::span<const int16_t> weights;  ///< per kLanes rows (filled up): kRank x kLanes; none of plain rows
   std::span<const float> scales;     ///< per row, filled up: of its weights, 1/32767 included
 
+  /// Rows are the basis rows themselves, kLanes per cluster.
+  bool plain() const { return weights.empty(); }
   std::size_t clusters() const { return cluster == 0 ? 0 : (rows + cluster - 1) / cluster; }
   uint64_t bytes() const { return basis.bytes() + weights.size_bytes() + scales.size_bytes(); }
   /// Multiplications of a product per row, and channel.
@@ -29,7 +32,8 @@ struct ClusterRows {
 /// rows x light, where the light is a transformed square. The same bits at any number of threads.
 /// @param light  columns
 /// @param out    rows
-void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out);
+void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out,
+              Zeros zeros = Zeros::multiply);
 
 /// The second half of it: rows out of the answers of their clusters' basis rows.
 /// @param basis  kRank per cluster

@@ -13,8 +13,9 @@ using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 
 }  // namespace
 
-FoldedBounces::FoldedBounces(const Operator& op) : op_(op), rank_(ClusterRows::kRank * op.bounce.clusters()) {
-  if (op.sweeps == 0) return;
+FoldedBounces::FoldedBounces(const Operator& op)
+    : op_(op), rank_(op.sweeps > 1 ? ClusterRows::kRank * op.bounce.clusters() : 0) {
+  if (rank_ == 0) return;
   const ClusterRows& k = op.bounce;
   const auto n = static_cast<Eigen::Index>(rank_);
   std::array<Matrix, 3> c{Matrix(n, n), Matrix(n, n), Matrix(n, n)};
@@ -48,7 +49,9 @@ void FoldedBounces::apply(std::span<Rgbx> exitance) const {
   haar_forward(exitance);
   if (op_.sweeps == 0) return;
   // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
-  std::vector<Rgbx> once = reflected_once(op_, exitance), sum = once;
+  std::vector<Rgbx> once = reflected_once(op_, exitance);
+  if (rank_ == 0) return add_reflected(exitance, once);
+  std::vector<Rgbx> sum = once;
   haar_forward(once);
   std::vector<Rgb> seen(rank_), all(rank_);
   multiply(op_.bounce.basis, once, seen);
@@ -71,10 +74,27 @@ void FoldedBounces::apply(std::span<Rgbx> exitance) const {
   add_reflected(exitance, sum);
 }
 
+namespace {
+
+void clamp(std::span<Rgb> light) {
+  for (Rgb& e : light) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+}
+
+}  // namespace
+
 void FoldedBounces::indirect(std::span<Rgbx> exitance, std::span<Rgb> out) const {
   apply(exitance);
   multiply(op_.gather, exitance, out);
-  for (Rgb& e : out) e = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+  clamp(out);
+}
+
+Culling::Report FoldedBounces::indirect(std::span<Rgbx> exitance, std::span<Rgb> out, const Culling& culling,
+                                        float share) const {
+  apply(exitance);
+  const Culling::Report report = culling.apply(share, exitance);
+  multiply(op_.gather, exitance, out, report.culled > 0 ? Zeros::skip : Zeros::multiply);
+  clamp(out);
+  return report;
 }
 
 }  // namespace sconce

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "transfer/culling.h"
 #include "transfer/operator.h"
 
 namespace sconce {
@@ -19,13 +20,17 @@ class FoldedBounces {
   /// Illuminance by light that was reflected at least once, lux; per receiver. What truncated rows leave
   /// below zero is darkness.
   void indirect(std::span<Rgbx> exitance, std::span<Rgb> out) const;
+  /// The same, but for coefficients that hardly matter. @param culling  of the operator's `gather`
+  /// @return `bound` holds for it, too: darkness is no further from what is right than what is below zero
+  Culling::Report indirect(std::span<Rgbx> exitance, std::span<Rgb> out, const Culling& culling,
+                           float share) const;
 
-  /// The small matrix of a channel, by rows: for other devices.
+  /// The small matrix of a channel, by rows: for other devices. None where one sweep is all.
   std::span<const float> matrix(std::size_t channel) const { return sums_[channel]; }
 
  private:
   const Operator& op_;
-  std::size_t rank_;                        ///< basis rows of `bounce`
+  std::size_t rank_;                        ///< basis rows of `bounce`, where it is used
   std::array<std::vector<float>, 3> sums_;  ///< per channel: (I - C)^-1, by rows
 };
 

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>  // includes this file again for each target
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/parallel.h"
@@ -18,7 +19,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// One block: sums of 16 rows in registers, three channels.
-void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* light, Rgb* out) {
+/// @param entries  of its coefficients, or null for all
+void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* light,
+                    const std::vector<uint32_t>* entries, Rgb* out) {
   constexpr std::size_t kBlock = WaveletRows::kBlock;
   const hn::CappedTag<float, kBlock> d;
   constexpr std::size_t kLanes = hn::MaxLanes(d), kParts = kBlock / kLanes;
@@ -27,9 +30,8 @@ void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* ligh
   using V = hn::Vec<decltype(d)>;
   V red[kParts], green[kParts], blue[kParts];
   for (std::size_t p = 0; p < kParts; ++p) red[p] = green[p] = blue[p] = hn::Zero(d);
-  const uint32_t end = rows.first[block + 1];
-  const int8_t* codes = rows.codes.data() + kBlock * rows.first[block];
-  for (uint32_t k = rows.first[block]; k < end; ++k, codes += kBlock) {
+  const auto add = [&](uint32_t k) HWY_ATTR {
+    const int8_t* codes = rows.codes.data() + kBlock * std::size_t{k};
     const Rgbx& l = light[rows.indices[k]];
     const V r = hn::Set(d, l[0]), g = hn::Set(d, l[1]), b = hn::Set(d, l[2]);
     for (std::size_t p = 0; p < kParts; ++p) {
@@ -39,7 +41,11 @@ void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* ligh
       green[p] = hn::MulAdd(value, g, green[p]);
       blue[p] = hn::MulAdd(value, b, blue[p]);
     }
-  }
+  };
+  if (entries != nullptr)
+    for (const uint32_t k : *entries) add(k);
+  else
+    for (uint32_t k = rows.first[block]; k < rows.first[block + 1]; ++k) add(k);
   alignas(64) float sums[3][kBlock];
   for (std::size_t p = 0; p < kParts; ++p) {
     hn::StoreU(red[p], d, sums[0] + p * kLanes);
@@ -55,10 +61,24 @@ void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* ligh
   }
 }
 
+/// @param lit  per coefficient of light: 1, or 0 to pass over it; null to look at all
 void multiply_blocks(const WaveletRows& rows, std::size_t first, std::size_t end, const Rgbx* light,
-                     Rgb* out) {
-  for (std::size_t block = first; block < end; ++block)
-    multiply_block(rows, block, light, out + WaveletRows::kBlock * block);
+                     const uint8_t* lit, Rgb* out) {
+  std::vector<uint32_t> entries;
+  for (std::size_t block = first; block < end; ++block) {
+    if (lit != nullptr) {
+      const uint32_t begin = rows.first[block], count = rows.first[block + 1] - begin;
+      entries.resize(count);
+      std::size_t kept = 0;
+      for (uint32_t k = begin; k < begin + count; ++k) {  // no branch: it would be guessed wrong too often
+        entries[kept] = k;
+        kept += lit[rows.indices[k]];
+      }
+      entries.resize(kept);
+    }
+    multiply_block(rows, block, light, lit != nullptr ? &entries : nullptr,
+                   out + WaveletRows::kBlock * block);
+  }
 }
 
 /// Rows of a cluster out of the products of its basis, kLanes at a time.
@@ -106,15 +126,26 @@ namespace sconce {
 HWY_EXPORT(multiply_blocks);
 HWY_EXPORT(combine_groups);
 
-void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out, Zeros zeros) {
+  std::vector<uint8_t> lit;
+  if (zeros == Zeros::skip) {
+    lit.resize(light.size());
+    for (std::size_t c = 0; c < light.size(); ++c)
+      lit[c] = light[c][0] != 0 || light[c][1] != 0 || light[c][2] != 0 ? 1 : 0;
+  }
   constexpr std::size_t kGrain = 64;
   parallel_for((rows.blocks() + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
     HWY_DYNAMIC_DISPATCH(multiply_blocks)
-    (rows, part * kGrain, std::min(rows.blocks(), (part + 1) * kGrain), light.data(), out.data());
+    (rows, part * kGrain, std::min(rows.blocks(), (part + 1) * kGrain), light.data(),
+     lit.empty() ? nullptr : lit.data(), out.data());
   });
 }
 
 void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb> out) {
+  if (rows.plain()) {
+    std::copy_n(basis.begin(), out.size(), out.begin());
+    return;
+  }
   const std::size_t groups = rows.scales.size() / ClusterRows::kLanes;
   constexpr std::size_t kGrain = 512;
   parallel_for((groups + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
@@ -123,9 +154,14 @@ void combine(const ClusterRows& rows, std::span<const Rgb> basis, std::span<Rgb>
   });
 }
 
-void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+void multiply(const ClusterRows& rows, std::span<const Rgbx> light, std::span<Rgb> out, Zeros zeros) {
+  if (rows.plain()) {
+    WaveletRows own = rows.basis;
+    own.rows = rows.rows;
+    return multiply(own, light, out, zeros);
+  }
   std::vector<Rgb> basis(ClusterRows::kRank * rows.clusters());
-  multiply(rows.basis, light, basis);
+  multiply(rows.basis, light, basis, zeros);
   combine(rows, basis, out);
 }
 

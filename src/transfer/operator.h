@@ -47,7 +47,7 @@ struct Operator {
   /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots (of one: ADR
   /// 17), `bounce` from nodes to nodes for light that was reflected and is even.
   ClusterRows first, bounce;
-  std::span<const Rgbx> albedo;  ///< per node
+  std::span<const Rgbx> albedo;  ///< per node; with one sweep of all bounces, times what they do to colours
   std::vector<std::shared_ptr<const void>> owners;
 
   uint32_t slots() const { return gather.basis.columns; }

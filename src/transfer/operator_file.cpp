@@ -84,7 +84,8 @@ bool fits(const WaveletRows& rows) {
 }
 
 bool fits(const ClusterRows& rows) {
-  const std::size_t filled = (std::size_t{rows.rows} + 15) / 16 * 16;
+  const std::size_t filled = rows.plain() ? 0 : (std::size_t{rows.rows} + 15) / 16 * 16;
+  if (rows.plain() && rows.cluster != ClusterRows::kLanes) return false;
   return rows.cluster > 0 && rows.cluster % ClusterRows::kLanes == 0 && fits(rows.basis) &&
          rows.basis.rows == ClusterRows::kRank * rows.clusters() && rows.scales.size() == filled &&
          rows.weights.size() == ClusterRows::kRank * filled;

@@ -120,27 +120,6 @@ TEST(WaveletRows, Superposition) {
   }
 }
 
-// 23. Erratum C6: what culling changes is within its bound, and the bound is not idle.
-TEST(WaveletRows, CullingKeepsItsBound) {
-  const auto made = compress(60, Weighting::root_area);
-  const std::vector<float> norms = column_norms(made.rows);
-  std::vector<Rgbx> whole = light(3);
-  haar_forward(whole);
-  std::vector<Rgb> all(kRows), some(kRows);
-  multiply(made.rows, whole, all);
-  for (const float threshold : {0.001f, 0.01f, 0.1f}) {
-    std::vector<Rgbx> culled = whole;
-    const double bound = cull(norms, threshold, culled);
-    multiply(made.rows, culled, some);
-    double squares = 0;
-    for (uint32_t r = 0; r < kRows; ++r)
-      for (const float d : {all[r].r - some[r].r, all[r].g - some[r].g, all[r].b - some[r].b})
-        squares += static_cast<double>(d) * d;
-    EXPECT_LE(std::sqrt(squares), bound * (1 + 1e-5));
-    EXPECT_GT(std::sqrt(squares), 0) << "something was left out at " << threshold;
-  }
-}
-
 TEST(WaveletRows, SameBitsAtAnyNumberOfThreads) {
   std::vector<Rgb> results[2];
   for (const int threads : {1, 2}) {

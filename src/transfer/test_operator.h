@@ -60,6 +60,7 @@ inline ClusterRows made_up_rows(uint32_t rows, uint32_t columns, uint32_t cluste
 struct MadeUpParams {
   uint32_t receivers = 1000, slots = 65536, slots_per_node = 1;
   bool bounces = true;
+  bool plain = false;  ///< as the chapter's: rows without weights (clusters of 16), all bounces in one sweep
   uint32_t cluster = 256, first_cluster = 256, node_cluster = 2048;
   std::size_t coefficients = 1024, bounce_coefficients = 512;
 };
@@ -73,6 +74,10 @@ inline Operator made_up_operator(const MadeUpParams& p) {
   op.gather = made_up_rows(p.receivers, p.slots, p.cluster, p.coefficients, 0.9f, numbers, op.owners[0]);
   op.first = made_up_rows(nodes, p.slots, p.first_cluster, p.coefficients, 0.9f, numbers, op.owners[1]);
   op.bounce = made_up_rows(nodes, nodes, p.node_cluster, p.bounce_coefficients, 0.9f, numbers, op.owners[2]);
+  if (p.plain) {
+    op.sweeps = 1;
+    for (ClusterRows* rows : {&op.gather, &op.first}) rows->weights = {}, rows->scales = {};
+  }
   const auto albedo = std::make_shared<std::vector<Rgbx>>();
   for (uint32_t i = 0; i < nodes; ++i) albedo->push_back({0.2f + 0.6f * numbers.unit(), 0.5f, 0.3f, 0});
   op.albedo = *albedo;

@@ -98,35 +98,4 @@ WaveletRowsBuilder::Result WaveletRowsBuilder::finish() {
   return result;
 }
 
-std::vector<float> column_norms(const WaveletRows& rows) {
-  std::vector<double> squares(rows.columns, 0.0);
-  for (std::size_t block = 0; block < rows.blocks(); ++block) {
-    const float* scales = rows.scales.data() + kBlock * block;
-    for (uint32_t k = rows.first[block]; k < rows.first[block + 1]; ++k)
-      for (std::size_t r = 0; r < kBlock; ++r) {
-        const auto value = static_cast<double>(dequantise(rows.codes[kBlock * k + r], scales[r]));
-        squares[rows.indices[k]] += value * value;
-      }
-    for (std::size_t r = 0; r < kBlock; ++r) {
-      const auto mean = static_cast<double>(rows.means[kBlock * block + r]);
-      squares[0] += mean * mean;
-    }
-  }
-  std::vector<float> norms(squares.size());
-  for (std::size_t c = 0; c < norms.size(); ++c) norms[c] = static_cast<float>(std::sqrt(squares[c]));
-  return norms;
-}
-
-double cull(std::span<const float> norms, float threshold, std::span<Rgbx> light) {
-  double bound = 0;
-  for (std::size_t c = 0; c < light.size(); ++c) {
-    const Rgbx& l = light[c];
-    const float size = norms[c] * std::sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
-    if (!(size < threshold)) continue;
-    bound += static_cast<double>(size);
-    light[c] = {};
-  }
-  return bound;
-}
-
 }  // namespace sconce

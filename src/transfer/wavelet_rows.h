@@ -34,20 +34,15 @@ struct WaveletRows {
   double macs_per_row() const { return rows == 0 ? 0 : static_cast<double>(codes.size()) / rows + 1; }
 };
 
+/// What a product does with coefficients of light that are 0: passing over them pays where most are.
+enum class Zeros : uint8_t { multiply, skip };
+
 /// rows x light, where the light is a transformed square (haar_forward). On the machine's vector units and
 /// threads; the same bits at any number of threads.
 /// @param light  columns
 /// @param out    rows
-void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out);
-
-/// Root of the sum over rows of the squared weight of every coefficient: the column norms of a bound on what
-/// leaving light coefficients out can change (methods.md, erratum C6).
-std::vector<float> column_norms(const WaveletRows& rows);
-
-/// Largest error, as the root of the sum of squares over all rows and channels, of a product with those light
-/// coefficients set to 0 for which norm x |light| < threshold: columns do not share outputs with themselves
-/// only, so norms add. @return the bound; `light` is changed
-double cull(std::span<const float> norms, float threshold, std::span<Rgbx> light);
+void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out,
+              Zeros zeros = Zeros::multiply);
 
 /// Compresses rows block by block, on any number of threads.
 class WaveletRowsBuilder {
