@@ -11,7 +11,7 @@ endif
 JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo build web test bench validate robustness docs format tidy setup
+.PHONY: help demo build web test bench validate robustness fuzz docs format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -54,6 +54,13 @@ robustness: build ## broken files of other people's test suites: docs/robustness
 	ninja -C build/dev sconce
 	ninja -C $(BUILD) robustness
 	$(BUILD)/tests/robustness $(or $(SCONCE_TEST_DATA),../shared/data) docs/robustness.md $(BUILD)/sconce build/dev/sconce
+
+# Reads broken files until RUNS inputs per reader are through; TARGETS="gltf obj" takes some of them (tests/fuzz).
+fuzz: build ## RUNS=1000000 made-up inputs to every reader (clang): bench/results/fuzz.md
+	@tools/setup.sh dev
+	cmake --preset fuzz
+	ninja -C build/fuzz fuzz
+	tests/fuzz/run.sh $(BUILD)/sconce build/fuzz $(or $(SCONCE_TEST_DATA),../shared/data) $(or $(RUNS),1000000) $(TARGETS)
 
 docs: build ## write docs/cli.md, out of every verb's --help
 	$(BUILD)/sconce help --markdown > docs/cli.md.new && mv docs/cli.md.new docs/cli.md

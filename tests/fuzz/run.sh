@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tests/fuzz/run.sh SCONCE FUZZ_BUILD DATA RUNS [TARGET...]: one fuzz target after the other, RUNS inputs each, from small files of
-# ours and of DATA. Each input may take 10 s and 4 GB. What is found stays in FUZZ_BUILD/found; bench/results/fuzz.md gets a row
-# per target. SECONDS_EACH ends a target early.
+# ours and of DATA. Each input may take 10 s and 4 GB. What is found stays in FUZZ_BUILD/found; bench/results/fuzz.md has a row per
+# target: inputs of all runs since the last finding. SECONDS_EACH ends a target early.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -96,18 +96,20 @@ END
 
 [ -d "$seeds" ] || make_seeds
 [ -d /dev/shm ] && [ -w /dev/shm ] && export TMPDIR=/dev/shm
-[ -f "$table" ] || printf '| reader | inputs | seconds | reached | findings |\n|---|---|---|---|---|\n' >"$table"
+[ -f "$table" ] || printf '| reader | inputs | reached | findings |\n|---|---|---|---|\n' >"$table"
 failed=0
 for target in "${targets[@]}"; do
   corpus=$build/corpus/$target found=$build/found/$target log=$build/found/$target.log
   mkdir -p "$corpus" "$found" "$seeds/$target"
-  start=$SECONDS
+  row=$(grep "^| $target |" "$table" || true) whole=1
   "$build/tests/fuzz/fuzz_$target" -runs="$runs" -max_total_time="${SECONDS_EACH:-0}" -timeout=10 -rss_limit_mb=4096 -max_len=40000 \
-    -print_final_stats=1 -artifact_prefix="$found/" "$corpus" "$seeds/$target" >"$log" 2>&1 || failed=1
+    -print_final_stats=1 -artifact_prefix="$found/" "$corpus" "$seeds/$target" >"$log" 2>&1 || failed=1 whole=0
   inputs=$(awk '/stat::number_of_executed_units/ { print $2 }' "$log")
   reached=$(awk '/ cov: / { for (i = 1; i < NF; ++i) if ($i == "cov:") n = $(i + 1) } END { print n + 0 }' "$log")
   findings=$(find "$found" -type f | wc -l)
+  # Runs add up until something is found.
+  inputs=$(awk -F '|' -v n="${inputs:-0}" -v whole=$whole '{ n += $3 } END { print whole ? n : 0 }' <<<"$row")
   sed -i "/^| $target |/d" "$table"
-  echo "| $target | ${inputs:-0} | $((SECONDS - start)) | $reached | $findings |" | tee -a "$table"
+  echo "| $target | $inputs | $reached | $findings |" | tee -a "$table"
 done
 exit $failed
