@@ -12,7 +12,7 @@ JOBS := $(shell nproc)
 
 .DEFAULT_GOAL := help
 PREFIX ?= /usr/local
-.PHONY: help demo build web test bench install deb validate robustness docs format tidy setup
+.PHONY: help demo build web test bench install deb validate robustness fuzz docs format tidy setup
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -63,6 +63,13 @@ robustness: build ## broken files of other people's test suites: docs/robustness
 	ninja -C build/dev sconce
 	ninja -C $(BUILD) robustness
 	$(BUILD)/tests/robustness $(or $(SCONCE_TEST_DATA),../shared/data) docs/robustness.md $(BUILD)/sconce build/dev/sconce
+
+# Reads broken files until RUNS inputs per reader are through; TARGETS="gltf obj" takes some of them (tests/fuzz).
+fuzz: build ## RUNS=1000000 made-up inputs to every reader (clang): bench/results/fuzz.md
+	@tools/setup.sh dev
+	cmake --preset fuzz
+	ninja -C build/fuzz fuzz
+	tests/fuzz/run.sh $(BUILD)/sconce build/fuzz $(or $(SCONCE_TEST_DATA),../shared/data) $(or $(RUNS),1000000) $(TARGETS)
 
 docs: build ## write docs/cli.md, out of every verb's --help
 	$(BUILD)/sconce help --markdown > docs/cli.md.new && mv docs/cli.md.new docs/cli.md

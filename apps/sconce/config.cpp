@@ -2,13 +2,13 @@
 #include "config.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <optional>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/toml.h"
 #include "values.h"
 
 namespace sconce::app {

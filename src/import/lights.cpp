@@ -43,7 +43,7 @@ LightWords split_light(std::string_view text, const std::string& where) {
 
 Light parse_light(const LightWords& words, const std::string& where) {
   SideNode::Table table{{"type", SideNode{words.type, 0}}};
-  for (const auto& [key, value] : words.values) table.emplace_back(key, value_of(value));
+  for (const auto& [key, value] : words.values) table.push_back({key, value_of(value)});
   return only_light(where, SideNode{std::move(table), 0}, {});
 }
 

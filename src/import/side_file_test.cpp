@@ -221,6 +221,7 @@ TEST(SideFile, ErrorsNameLineKeyAndChoices) {
       << unknown;
   EXPECT_NE(room.error("[lights]\n").find("unknown key 'lights'"), std::string::npos);
   EXPECT_NE(room.error("[[light]]\nname = = 3\n").find("room.toml:2"), std::string::npos);
+  EXPECT_NE(room.error("[!\n").find("room.toml:1"), std::string::npos);
   EXPECT_NE(room.error("[[light]]\ntype = \"lamp\"\n").find("point, spot, sun"), std::string::npos);
   EXPECT_NE(room.error("[[light]]\ntype = \"point\"\nintensity = 1\n").find("has no position"),
             std::string::npos);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/side_table.h"
 
-#include <toml++/toml.h>
 #include <algorithm>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/kelvin.h"
 #include "core/text.h"
+#include "core/toml.h"
 
 namespace sconce {
 
@@ -21,7 +21,7 @@ SideNode convert(const toml::node& node, const std::string& file) {
     for (const auto& [key, value] : *table) {
       SideNode item = convert(value, file);
       item.line = static_cast<int>(key.source().begin.line);
-      items.emplace_back(std::string(key.str()), std::move(item));
+      items.push_back({std::string(key.str()), std::move(item)});
     }
     out.value = std::move(items);
   } else if (const auto* array = node.as_array()) {

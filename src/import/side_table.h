@@ -16,13 +16,20 @@
 
 namespace sconce {
 
+struct SideEntry;
+
 struct SideNode {
   using Array = std::vector<SideNode>;
-  using Table = std::vector<std::pair<std::string, SideNode>>;
+  using Table = std::vector<SideEntry>;
   std::variant<bool, double, std::string, Array, Table> value;
   int line = 0;
 
   const SideNode* find(std::string_view key) const;
+};
+
+struct SideEntry {
+  std::string key;
+  SideNode node;
 };
 
 /// @throws Error: file:line and what TOML expected

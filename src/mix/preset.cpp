@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/toml.h"
 
 namespace sconce {
 

@@ -59,6 +59,7 @@ TEST(Preset, BadFilesNameFileAndLine) {
   EXPECT_NE(error("mix = 1\n").find("p.toml:1"), std::string::npos);
   EXPECT_NE(error("[mix]\na = [1]\n").find("p.toml:2: 'a'"), std::string::npos);
   EXPECT_NE(error("[mix\n").find("p.toml:1"), std::string::npos);
+  EXPECT_NE(error("[!\n").find("p.toml:1"), std::string::npos);
   EXPECT_THROW(read_preset(folder / "absent.toml"), Error);
 }
 

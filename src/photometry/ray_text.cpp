@@ -22,7 +22,7 @@ class Reader {
     if (!next()) throw NotMyFormat(where_, "is empty");
     if (line_.find("LightTools") != std::string::npos) return light_tools();
     double head[2];
-    if (numbers(head) == 2 && head[0] >= 1 && head[0] == std::floor(head[0]) &&
+    if (numbers(head) == 2 && head[0] >= 1 && head[0] < 0x1p53 && head[0] == std::floor(head[0]) &&
         head[1] == std::floor(head[1]))
       return zemax(static_cast<uint64_t>(head[0]), head[1]);
     throw NotMyFormat(where_, "is no ray text");

@@ -187,6 +187,7 @@ TEST(Rays, OtherLayouts) {
   EXPECT_NE(
       error("a.dat", "2 4\n1 2 3 0 0 1 0.25\n").find("a.dat:2: holds 1 rays where its first line says 2"),
       std::string::npos);
+  EXPECT_NE(error("a.dat", "inf 4\n").find("a.dat: is no ray file"), std::string::npos);
   EXPECT_NE(error("a.dat", "2 9\n").find("a.dat:1: has the unit code 9"), std::string::npos);
   EXPECT_NE(
       error("a.ray", "# LightTools 9\nlt_datatype: photons\n").find("a.ray:2: has the data type 'photons'"),

@@ -16,6 +16,7 @@ namespace {
 
 constexpr char kMagic[8] = {'s', 'c', 'o', 'n', 'c', 'e', 'b', '1'};
 constexpr uint32_t kRecord = 0x454c4954;  // "TILE"
+constexpr uint64_t kMostTiles = 1 << 24;  // of 256: texels are numbered by 32 bits
 
 struct RecordHead {
   uint32_t magic, tile, made_with_size, values;
@@ -85,7 +86,7 @@ BakeState BakeState::open(const std::filesystem::path& path, bool append) {
     throw Error(path.string(), "is not the state of a bake by this version");
   if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) ||
       !get(state.file_, h.layers) || !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) ||
-      h.tile_size == 0 || h.receivers > (1ull << 34))
+      h.tile_size == 0 || h.receivers > kMostTiles * h.tile_size)
     throw Error(path.string(), "the header is damaged");
   const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
   state.offsets_.resize(tiles);
@@ -96,13 +97,14 @@ BakeState BakeState::open(const std::filesystem::path& path, bool append) {
 
 void BakeState::scan(bool repair) {
   std::vector<GroupValue> values;
+  const uint64_t size = std::filesystem::file_size(path_);
   for (;;) {
     const long start = std::ftell(file_);
     RecordHead head;
     std::string made_with;
     const bool whole = [&] {
       if (!get(file_, head) || head.magic != kRecord || head.tile >= tiles() || head.made_with_size > 4096 ||
-          head.values != receivers_of(head.tile) * header_.layers)
+          head.values != receivers_of(head.tile) * header_.layers || head.values > size / sizeof(GroupValue))
         return false;
       made_with.resize(head.made_with_size);
       values.resize(head.values);

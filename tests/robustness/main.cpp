@@ -53,10 +53,21 @@ crash, a hang, too much memory, a sanitizer's report, or a refusal that is not o
 same files are a test.
 )";
 
+/// What `make fuzz` counted, and what it found before.
+std::string fuzzing() {
+  const std::filesystem::path root = SCONCE_SOURCE_DIR, table = root / "bench/results/fuzz.md";
+  if (!std::filesystem::exists(table)) return {};
+  return "\n## Made-up input\n\nlibFuzzer, with the same sanitizers and limits, on every reader (`make "
+         "fuzz`; tests/fuzz). "
+         "Reached: edges of the program.\n\n" +
+         read_file(table) + "\n" + read_file(root / "tests/fuzz/found.md");
+}
+
 int write_page(const std::string& data, const std::string& file, std::span<char*> programs) {
   std::string page = kHead;
   std::size_t findings = 0;
   for (const char* program : programs) findings += add_section(data, program_at(program), page);
+  page += fuzzing();
   write_file(file, page);
   fmt::print("{}: {} findings\n", file, findings);
   return findings == 0 ? 0 : 3;
