@@ -19,7 +19,7 @@ std::filesystem::path write_state(const TemporaryFolder& folder) {
 
 TEST(BakeState, ComesBack) {
   const TemporaryFolder folder;
-  const BakeState state = BakeState::open(write_state(folder));
+  const BakeState state = BakeState::open(write_state(folder), false);
   EXPECT_EQ(state.header().job, "job");
   ASSERT_EQ(state.tiles(), 2u);
   EXPECT_FALSE(state.has(0));
@@ -35,7 +35,7 @@ TEST(BakeState, DamageIsAnErrorOrFewerTiles) {
   const std::string whole = read_file(write_state(folder));
   const auto opens = [&](const std::string& bytes) {
     try {
-      return BakeState::open(folder.write("b.state", bytes)).tiles() == 2;
+      return BakeState::open(folder.write("b.state", bytes), true).tiles() == 2;
     } catch (const Error& e) {
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
       return false;
@@ -61,7 +61,7 @@ TEST(BakeState, DamageIsAnErrorOrFewerTiles) {
   std::memcpy(&large[receivers + 8], &tile, sizeof tile);
   std::memcpy(&large[receivers + 16], &first, sizeof first);
   std::memcpy(&large[receivers + 24], &values, sizeof values);
-  EXPECT_EQ(BakeState::open(folder.write("b.state", large)).has(0), false);
+  EXPECT_EQ(BakeState::open(folder.write("b.state", large), true).has(0), false);
 }
 
 }  // namespace

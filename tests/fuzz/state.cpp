@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   static fuzz::File file("bake.state");
   const std::filesystem::path& path = file.hold(fuzz::text(data, size));
   return fuzz::answers([&] {
-    const BakeState state = BakeState::open(path);
+    const BakeState state = BakeState::open(path, true);
     for (std::size_t tile = 0; tile < state.tiles(); ++tile)
       if (state.has(tile))
         for (uint32_t layer = 0; layer < state.header().layers; ++layer) state.read(tile, layer);
