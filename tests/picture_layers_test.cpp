@@ -18,7 +18,9 @@ class PictureLayers : public testing::Test {
   void SetUp() override { write_package(path("wall.sconce"), lit_wall(8, 8)); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   Outcome run(std::vector<std::string> more) const {
-    std::vector<std::string> args{"render", path("wall.sconce"), "--size", "40x30", "--samples", "4"};
+    std::vector<std::string> args{"render", path("wall.sconce"), "--samples", "4"};
+    if (std::find(more.begin(), more.end(), "--size") == more.end())
+      args.insert(args.end(), {"--size", "40x30"});
     args.insert(args.end(), more.begin(), more.end());
     return run_sconce(args);
   }
@@ -50,7 +52,7 @@ TEST_F(PictureLayers, GroupsSumToTheBeauty) {
   auto with_layers = mix;
   with_layers.insert(with_layers.end(), {"--layers", "groups"});
   const Image layered = render(with_layers);
-  EXPECT_EQ(layered.text.at("sconce:groups"), "a\nb\nc");
+  EXPECT_EQ(layered.text.at("sconce:groups"), "a\nb\nc\nrest");
   ASSERT_EQ(layered.stride(), 3u * 5);
   double lit = 0;
   for (std::size_t i = 0; i < layered.pixels(); ++i)

@@ -32,8 +32,10 @@ struct Rendered {
   Metering metering;
 };
 
-Rendered open(const Package& package, const PictureOptions& picture, const Progress& progress) {
+Rendered open(const Package& package, const PictureOptions& picture, const MixOptions& settings,
+              const Preset& preset, const Progress& progress) {
   Rendered out;
+  settings.make(preset, package.manifest().groups, {});  // what is wrong there is said before all else
   out.stage = make_stage(package, picture.device, picture.tier, !picture.no_reflections);
   out.camera =
       picture.find_camera(out.stage->scene(), [&] { return out.stage->eye_height_camera(progress); });
@@ -149,7 +151,7 @@ int run_render(int argc, const char* const* argv) {
       progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone.curve + " is not applied");
     const Package package = settings.open(input);
     groups = package.manifest().groups;
-    rendered = open(package, picture, progress);
+    rendered = open(package, picture, settings, preset, progress);
     render(rendered, package, settings, preset, exposed, layers.empty(), progress);
     exposure = exposure_of(rendered, choice, exposed);
     const Stage& stage = *rendered.stage;

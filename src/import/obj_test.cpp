@@ -41,7 +41,11 @@ TEST(Obj, GroupsMaterialsAndCoordinates) {
   const Material& lamp = scene[scene[scene.instances[1].mesh].material];
   EXPECT_EQ(lamp.emission, Rgb(17, 12, 4));
   EXPECT_FALSE(lamp.double_sided);
-  EXPECT_TRUE(w.any("'glass' is transparent"));
+  const auto glass = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [](const Material& m) { return m.name == "glass"; });
+  ASSERT_NE(glass, scene.materials.end());
+  EXPECT_EQ(glass->alpha_mode, Material::Alpha::blend);
+  EXPECT_LT(glass->alpha, 1);
   EXPECT_EQ(scene_files(path), std::vector<std::filesystem::path>{folder.path() / "a b.mtl"});
 }
 
