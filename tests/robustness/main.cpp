@@ -57,7 +57,7 @@ same files are a test.
 std::string fuzzing() {
   const std::filesystem::path root = SCONCE_SOURCE_DIR, table = root / "bench/results/fuzz.md";
   if (!std::filesystem::exists(table)) return {};
-  return "\n## Made-up input\n\nlibFuzzer, with the same sanitizers and limits, on every reader (`make "
+  return "\n## Made-up input\n\nlibFuzzer, with address and undefined behaviour sanitizers, on every reader (`make "
          "fuzz`; tests/fuzz). "
          "Reached: edges of the program.\n\n" +
          read_file(table) + "\n" + read_file(root / "tests/fuzz/found.md");
