@@ -40,14 +40,13 @@ std::string layer_name(std::string name, const std::vector<std::string>& taken) 
 
 class Collector {
  public:
-  Collector(const Package& package, const View& view, const Camera& camera, const PictureParams& params,
+  Collector(const Package& package, Stage& stage, const Camera& camera, const PictureParams& params,
             const Progress& progress)
-      : package_(package), view_(view), camera_(camera), params_(params), progress_(progress) {}
+      : package_(package), stage_(stage), camera_(camera), params_(params), progress_(progress) {}
 
-  Image render(const MixSpec& mix) const {
-    std::vector<Image> components;
-    if (view_.sees_normal_maps()) components = mix_components(package_, mix);
-    return view_.render(camera_, mix, mix_pages(package_, mix), params_, progress_, nullptr, {}, components);
+  Image render(const MixSpec& mix) {
+    stage_.draw(camera_, mix, mix_pages(package_, mix), params_, progress_);
+    return stage_.linear();
   }
   void add(const Image& from, std::size_t first, const std::string& layer,
            std::span<const char* const> names) {
@@ -68,7 +67,7 @@ class Collector {
 
  private:
   const Package& package_;
-  const View& view_;
+  Stage& stage_;
   const Camera& camera_;
   const PictureParams& params_;
   const Progress& progress_;
@@ -92,11 +91,11 @@ LayerChoice parse_layers(const std::string& text) {
   return out;
 }
 
-LayeredPicture picture_layers(const Package& package, const View& view, const Camera& camera,
-                              const MixSpec& mix, const PictureParams& params, const LayerChoice& choice,
+LayeredPicture picture_layers(const Package& package, Stage& stage, const Camera& camera, const MixSpec& mix,
+                              const PictureParams& params, const LayerChoice& choice,
                               const Progress& progress) {
   constexpr std::array<const char*, 3> kRgb{"R", "G", "B"};
-  Collector out(package, view, camera, params, progress);
+  Collector out(package, stage, camera, params, progress);
   std::vector<std::string> names;
   if (choice.groups) {
     const std::size_t count = mix.weights.size();
@@ -125,7 +124,7 @@ LayeredPicture picture_layers(const Package& package, const View& view, const Ca
   LayeredPicture picture;
   picture.light = out.channels();
   if (choice.surfaces()) {
-    const Image surfaces = view.surfaces(camera, params, progress);
+    const Image surfaces = stage.view()->surfaces(camera, params, progress);
     std::size_t first = 0;
     for (const Row& row : rows()) {
       if (choice.*row.chosen) out.add(surfaces, first, row.name, row.channels);
@@ -136,7 +135,7 @@ LayeredPicture picture_layers(const Package& package, const View& view, const Ca
   if (choice.groups) picture.image.text["sconce:groups"] = join(names, "\n");
   if (choice.id) {
     std::string instances;
-    for (const Instance& instance : view.scene().instances) instances += instance.name + "\n";
+    for (const Instance& instance : stage.scene().instances) instances += instance.name + "\n";
     picture.image.text["sconce:ids"] = instances;
   }
   return picture;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "picture/render.h"
+#include "stage.h"
 
 namespace sconce::app {
 
@@ -25,8 +25,9 @@ struct LayeredPicture {
 /// `rest` for what shines without a group, where something does; then View::surfaces(). The beauty is the sum
 /// of the groups where they are asked for: normal maps are seen in each group's own light. The text attribute
 /// `sconce:groups` lists the groups' layers, one a line.
-LayeredPicture picture_layers(const Package& package, const View& view, const Camera& camera,
-                              const MixSpec& mix, const PictureParams& params, const LayerChoice& choice,
+/// @param stage  of rays
+LayeredPicture picture_layers(const Package& package, Stage& stage, const Camera& camera, const MixSpec& mix,
+                              const PictureParams& params, const LayerChoice& choice,
                               const Progress& progress);
 
 }  // namespace sconce::app

@@ -32,22 +32,21 @@ struct Rendered {
   Metering metering;
 };
 
-Rendered open(const Package& package, const PictureOptions& picture, const MixOptions& settings,
-              const Preset& preset, const Progress& progress) {
+/// Nothing is drawn yet.
+Rendered open(const Package& package, const PictureOptions& picture, const std::string& device, MixSpec mix,
+              const Progress& progress) {
   Rendered out;
-  settings.make(preset, package.manifest().groups, {});  // what is wrong there is said before all else
-  out.stage = make_stage(package, picture.device, picture.tier, !picture.no_reflections);
+  out.mix = std::move(mix);
+  out.stage = make_stage(package, device, picture.tier, !picture.no_reflections);
   out.camera =
       picture.find_camera(out.stage->scene(), [&] { return out.stage->eye_height_camera(progress); });
   out.params = picture.params(out.camera);
   return out;
 }
 
-/// @param draws  else it is only mixed and metered
-void render(Rendered& out, const Package& package, const MixOptions& settings, const Preset& preset,
-            bool metered, bool draws, const Progress& progress) {
-  out.mix = settings.make(preset, package.manifest().groups, progress);
+void render(Rendered& out, const Package& package, bool metered, bool draws, const Progress& progress) {
   progress.check();
+  if (!metered && !draws) return;
   const std::vector<Image> pages = mix_pages(package, out.mix);
   if (metered) out.metering = meter(package, out.stage->scene(), out.mix, pages);
   if (draws) out.stage->draw(out.camera, out.mix, pages, out.params, progress);
@@ -151,15 +150,18 @@ int run_render(int argc, const char* const* argv) {
       progress.warn("an OpenEXR picture stays linear: --tone " + picture.tone.curve + " is not applied");
     const Package package = settings.open(input);
     groups = package.manifest().groups;
-    rendered = open(package, picture, settings, preset, progress);
-    render(rendered, package, settings, preset, exposed, layers.empty(), progress);
+    // Layers are what rays find.
+    rendered = open(package, picture, layers.empty() ? picture.device : "cpu",
+                    settings.make(preset, groups, progress), progress);
+    render(rendered, package, exposed, layers.empty(), progress);
     exposure = exposure_of(rendered, choice, exposed);
-    const Stage& stage = *rendered.stage;
+    Stage& stage = *rendered.stage;
     device = stage.device();
     if (!coverage.empty()) write_exr(coverage, stage.coverage(), PixelType::half);
     if (sequence.given()) {
       const SequenceEnd from{stage.linear(), exposure};
-      render(rendered, package, settings, last_preset, exposed, true, progress);
+      rendered.mix = settings.make(last_preset, groups, progress);
+      render(rendered, package, exposed, true, progress);
       const SequenceEnd to{stage.linear(), exposure_of(rendered, last.tone.exposure_choice(), exposed)};
       const auto write = [&](const std::string& file, const SequenceEnd& frame) {
         linear ? write_linear(file, frame.linear, frame.exposure, acescg)
@@ -167,10 +169,8 @@ int run_render(int argc, const char* const* argv) {
       };
       files = write_sequence(sequence, from, to, output, write, progress);
     } else if (!layers.empty()) {
-      device = "cpu";
-      const View view(package);
       const LayeredPicture picture_of_layers = picture_layers(
-          package, view, rendered.camera, rendered.mix, rendered.params, parse_layers(layers), progress);
+          package, stage, rendered.camera, rendered.mix, rendered.params, parse_layers(layers), progress);
       write_linear(output, picture_of_layers.image, exposure, acescg, picture_of_layers.light);
     } else {
       linear ? write_linear(output, stage.linear(), exposure, acescg)

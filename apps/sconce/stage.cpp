@@ -5,7 +5,6 @@
 #include "gpu/way.h"
 #include "mix/tone_lightmap.h"
 #include "picture/fixed_function.h"
-#include "picture/render.h"
 #include "tone/apply.h"
 
 namespace sconce::app {
@@ -17,6 +16,7 @@ class CpuStage : public Stage {
   explicit CpuStage(const Package& package) : package_(&package), view_(package) {}
   std::string device() const override { return "cpu"; }
   const Scene& scene() const override { return view_.scene(); }
+  const View* view() const override { return &view_; }
   Camera eye_height_camera(const Progress& progress) const override { return view_.camera("", progress); }
   void draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
             const PictureParams& params, const Progress& progress) override {
@@ -29,9 +29,6 @@ class CpuStage : public Stage {
   Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const override {
     return tone_map(linear_, exposure, mapper);
   }
-
- protected:
-  const View& view() const { return view_; }
 
  private:
   const Package* package_;
@@ -50,7 +47,7 @@ class SoftwareStage : public CpuStage {
   }
   Image coverage() const override {
     Image coverage;
-    view().render(camera_, mix_, pages_, params_, progress_, &coverage);
+    view()->render(camera_, mix_, pages_, params_, progress_, &coverage);
     return coverage;
   }
   Image8 toned(const Exposure& exposure, const ToneMapper& mapper) const override {
@@ -59,7 +56,7 @@ class SoftwareStage : public CpuStage {
     std::vector<float> sum;  // of codes, as a frame buffer that smooths edges adds them
     for (int s = 0; s < params_.samples; ++s) {
       const Image codes =
-          fixed_function(view().hits(camera_, params_, s, progress_), mix_, lightmap, exposure, mapper);
+          fixed_function(view()->hits(camera_, params_, s, progress_), mix_, lightmap, exposure, mapper);
       sum.resize(codes.data.size());
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += codes.data[i];
     }

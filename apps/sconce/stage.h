@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "gpu/context.h"
 #include "mix/mix.h"
+#include "picture/render.h"
 #include "scene/lens.h"
 #include "tone/exposure.h"
 
@@ -17,6 +18,7 @@ class Stage {
   virtual ~Stage() = default;
   virtual std::string device() const = 0;  ///< "cpu", "software", or OpenGL's name of what draws
   virtual const Scene& scene() const = 0;
+  virtual const View* view() const { return nullptr; }  ///< of rays; null where OpenGL draws
   /// One at eye height, for a scene without cameras.
   virtual Camera eye_height_camera(const Progress& progress) const = 0;
   /// Draws; what is seen is then told by the functions below.
