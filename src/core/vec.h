@@ -29,6 +29,12 @@ inline Vec2 square_to_triangle(Vec2 u) {
   return {u.x - half, u.y - half};
 }
 
+/// Uniform direction, density 1/(4 pi).
+inline Vec3 square_to_sphere(Vec2 u) {
+  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
 /// Cosine-distributed direction about +z, density cos/pi, by Shirley & Chiu's concentric map: strata stay
 /// compact. Which wedge a point falls into is a coin toss, so this takes no branch on it.
 inline Vec3 square_to_cosine(Vec2 u) {

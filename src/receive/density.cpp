@@ -32,11 +32,6 @@ Vec2 triangle_point(Vec2 u) {
   return {s * (1 - u.y), s * u.y};
 }
 
-Vec3 sphere_direction(Vec2 u) {
-  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 /// Emissive triangles and lamps as starting points.
 class Starts {
  public:
@@ -80,10 +75,10 @@ class Starts {
     const Vec3 place(light.frame[3]);
     const Vec3 forward = normalize_or(-Vec3(light.frame[2]), Vec3(0, -1, 0));
     const float radius = 0.51f * world_.bounds.diagonal();
-    if (std::holds_alternative<PointLight>(light.shape)) return {place, sphere_direction(u)};
+    if (std::holds_alternative<PointLight>(light.shape)) return {place, square_to_sphere(u)};
     if (const auto* measured = std::get_if<LuminaireLight>(&light.shape)) {
       // Where it is dark, the ray goes the other way: a downlight lights no attic.
-      const Vec3 local = sphere_direction(u);
+      const Vec3 local = square_to_sphere(u);
       const bool lit = intensity(scene_[measured->luminaire].photometry, local) > 0;
       return {place, glm::normalize(Mat3(light.frame) * (lit ? local : -local))};
     }
@@ -93,7 +88,7 @@ class Starts {
       return {place, glm::normalize(Frame(forward).to_world(Vec3(s * std::cos(phi), s * std::sin(phi), c)))};
     }
     const bool sun = std::holds_alternative<SunLight>(light.shape);
-    const Vec3 direction = sun ? forward : sphere_direction(v);
+    const Vec3 direction = sun ? forward : square_to_sphere(v);
     const float r = radius * std::sqrt(u.x), phi = 2 * kPi * u.y;
     const Vec3 disk = Frame(direction).to_world(Vec3(r * std::cos(phi), r * std::sin(phi), -2 * radius));
     return {world_.bounds.center() + disk, direction};

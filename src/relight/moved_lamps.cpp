@@ -143,10 +143,7 @@ std::vector<std::string> MovedLamps::buried() const {
     if (!place) continue;
     uint32_t backs = 0;
     for (uint32_t r = 0; r < kRays; ++r) {
-      const Vec2 u = sobol_pair(r, 0, kBuriedStream);
-      const float z = 1 - 2 * u.x, radius = std::sqrt(std::max(0.0f, 1 - z * z));
-      const Hit hit = tracer_.closest(
-          {*place, Vec3(radius * std::cos(2 * kPi * u.y), radius * std::sin(2 * kPi * u.y), z)});
+      const Hit hit = tracer_.closest({*place, square_to_sphere(sobol_pair(r, 0, kBuriedStream))});
       const bool own = hit && lamps_.lamp_of(hit.triangle) == static_cast<int>(chosen.lamp);
       const bool open =
           hit && (scene_[world_.materials[hit.triangle]].double_sided || tracer_.passing(hit).share() > 0);

@@ -125,9 +125,7 @@ TEST_P(Panes, InASphere) {
   const LitScene lit(std::move(scene), Grouping::one);
   std::vector<SurfacePoint> points;
   for (uint32_t i = 0; i < 8; ++i) {
-    const Vec2 u = sobol_pair(i, 0, 1);
-    const float z = 1 - 2 * u.x, r = std::sqrt(1 - z * z), phi = 2 * kPi * u.y;
-    const Vec3 out(r * std::cos(phi), r * std::sin(phi), z);
+    const Vec3 out = square_to_sphere(sobol_pair(i, 0, 1));
     points.push_back({1.995f * out, -out, -out});
   }
   const Rgb mean = solve(lit, GetParam(), points, 2048);

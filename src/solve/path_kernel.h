@@ -11,12 +11,6 @@
 
 namespace sconce {
 
-/// Uniform direction, density 1/(4 pi).
-inline Vec3 square_to_sphere(Vec2 u) {
-  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 /// What a path knows of the light at its hits besides what it finds itself: nothing.
 struct NoCache {
   /// Adds to the sums throughput times the illuminance at the end of ray number `depth` (0: the receiver's),

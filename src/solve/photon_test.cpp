@@ -58,9 +58,7 @@ TEST(PhotonMap, DensityInsideASphere) {
   double direct = 0, all = 0, squares = 0;
   const int n = 200;
   for (uint32_t i = 0; i < n; ++i) {
-    const Vec2 u = sobol_pair(i, 0, 1);
-    const float z = 1 - 2 * u.x, r = std::sqrt(1 - z * z), phi = 2 * kPi * u.y;
-    const Vec3 out(r * std::cos(phi), r * std::sin(phi), z);
+    const Vec3 out = square_to_sphere(sobol_pair(i, 0, 1));
     map.density({1.999f * out, -out, 400, 0, 0}, d);
     direct += sum(map, d) / n;
     map.density({1.999f * out, -out, 400}, d);
