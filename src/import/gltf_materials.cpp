@@ -75,7 +75,7 @@ void read_transmission(const tinygltf::Value& e, GltfTextures& textures, const s
 }
 
 Material read_material(const GltfSource& source, const tinygltf::Material& m, GltfTextures& textures,
-                       const std::string& place, const Progress& progress) {
+                       const std::string& place) {
   Material out;
   out.name = m.name;
   const tinygltf::PbrMetallicRoughness& pbr = m.pbrMetallicRoughness;
@@ -127,7 +127,7 @@ void read_gltf_materials(const GltfSource& source, Scene& scene, const Progress&
     progress.check();
     progress.at("materials", i, source.model.materials.size());
     const std::string place = "materials[" + std::to_string(i) + "]";
-    scene.materials.push_back(read_material(source, source.model.materials[i], textures, place, progress));
+    scene.materials.push_back(read_material(source, source.model.materials[i], textures, place));
   }
 }
 

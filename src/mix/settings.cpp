@@ -32,8 +32,7 @@ std::optional<Rgb> parse_hex(std::string_view text) {
 /// The number before `unit`, when the term ends with it.
 std::optional<double> number_before(std::string_view term, std::string_view unit) {
   if (!term.ends_with(unit)) return std::nullopt;
-  const std::optional<double> value = parse_number(term.substr(0, term.size() - unit.size()));
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  return parse_number(term.substr(0, term.size() - unit.size()));
 }
 
 class Parser {

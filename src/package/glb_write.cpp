@@ -311,8 +311,6 @@ class Writer {
     std::string text = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
     while (text.size() % 4 != 0) text += ' ';
     const std::size_t total = 12 + 8 + text.size() + 8 + bin_.size();
-    if (total > UINT32_MAX)
-      throw Error({}, "the scene's meshes and textures exceed the 4 GB that a .glb can hold");
     if (total > UINT32_MAX) throw Error("scene.glb", "would be larger than 4 GiB");
     std::string out;
     out.reserve(total);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -47,7 +46,7 @@ class Attributes {
   std::vector<double> numbers(const std::string& key, std::size_t count) const {
     std::vector<double> all;
     for (const std::string& word : split(text(key), ' '))
-      if (const auto number = parse_number(word); number && std::isfinite(*number)) all.push_back(*number);
+      if (const auto number = parse_number(word)) all.push_back(*number);
     if (all.size() != count) throw Error(where_, "its attribute sconce:" + key + " is damaged");
     return all;
   }

@@ -58,8 +58,8 @@ MeasuringPlane spanned_plane(const Vec3& corner, const Vec3& across, const Vec3&
 
 std::optional<float> height_over_floor(std::string_view text) {
   if (!text.starts_with("floor+")) return std::nullopt;
-  const auto height = parse_number(std::string(text.substr(6)));
-  if (!height || !std::isfinite(*height)) return std::nullopt;
+  const auto height = parse_number(text.substr(6));
+  if (!height) return std::nullopt;
   return static_cast<float>(*height);
 }
 

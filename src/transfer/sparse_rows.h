@@ -28,11 +28,7 @@ struct SparseRows {
       const float weight = static_cast<float>(counts[k]);
       const float* column = x.data() + width * columns[k];
       if (!tints.empty()) {
-        for (std::size_t c = 0; c < width; c += 3) {
-          out[c] += weight * tints[k].r * column[c];
-          out[c + 1] += weight * tints[k].g * column[c + 1];
-          out[c + 2] += weight * tints[k].b * column[c + 2];
-        }
+        for (std::size_t c = 0; c < width; ++c) out[c] += weight * (&tints[k].r)[c % 3] * column[c];
         continue;
       }
       for (std::size_t c = 0; c < width; ++c) out[c] += weight * column[c];
