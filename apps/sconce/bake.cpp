@@ -104,12 +104,16 @@ double clock_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+std::size_t values_of(const PreparedBake& bake) {
+  return bake.scene.groups.size() * coefficients(bake.job.params.basis);
+}
+
 /// Samples that fit the time; leaves the solver with them. All ranks together.
 int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const Ranks& ranks) {
   if (!solver.set_samples(kBatches))
     throw UsageError("--time", "means nothing to the solver " + bake.job.solver, "radiosity, path, photon");
-  int samples = samples_within(std::max(0.0, seconds) * ranks.count, solver, bake.receivers,
-                               bake.scene.groups.size() * coefficients(bake.job.params.basis), clock_seconds);
+  int samples = samples_within(std::max(0.0, seconds) * ranks.count, solver, bake.receivers, values_of(bake),
+                               clock_seconds);
   if (ranks.count > 1)
     for (const std::string& other : ranks.allgather(std::to_string(samples)))
       samples = std::min(samples, std::stoi(other));
@@ -127,9 +131,7 @@ std::optional<double> expected_seconds(const Request& request, const PreparedBak
   const auto solver = make_solver(bake, state_path(request), ranks, progress);
   const double once = clock_seconds() - start;
   const double share = request.shard ? request.shard->count : ranks.count;
-  return once + seconds_for(*solver, bake.receivers,
-                            bake.scene.groups.size() * coefficients(bake.job.params.basis), clock_seconds) /
-                    share;
+  return once + seconds_for(*solver, bake.receivers, values_of(bake), clock_seconds) / share;
 }
 
 /// `--movable`: the lightmap's operator, unless one of this package stands.

@@ -68,7 +68,7 @@ struct Measured {
 Measured measure(const Probing& job, const Package& package, const View& view, ProbePoints& at,
                  const Progress& progress) {
   const std::size_t groups = package.manifest().groups.size();
-  const std::vector<PlaneLight> planes = read_planes(package);
+  const std::vector<PlaneLight> planes = job.plane.empty() ? std::vector<PlaneLight>() : read_planes(package);
   for (const PlaneLight& baked : planes) {
     if (baked.name != job.plane) continue;
     at.plane = baked.plane;

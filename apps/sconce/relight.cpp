@@ -224,7 +224,7 @@ int run_relight(int argc, const char* const* argv) {
     const auto stage = make_relight_stage(job, device, progress);
     relit.seconds = stage->seconds();
     relit.device = stage->device();
-    relit.culled = stage->culled();
+    if (cull > 0) relit.culled = stage->culled();
     if (texels) stage->add_to(pages);
     relit.linear = stage->draw(relit.camera, relit.mix, pages, relit.params, progress);
     if (exposed && texels && wanted.shaders.empty()) {

@@ -49,9 +49,8 @@ class RelightStage {
 };
 
 /// Lights the cloud and sends its light to all receivers. `auto` is OpenGL where there is a graphics device
-/// that knows all lamps, and for shaders in any case.
+/// that knows all lamps and nothing is culled, and for shaders in any case.
 /// Warns of lamps that stand inside something.
-/// Culling is no OpenGL, either.
 /// @throws Error when OpenGL is wanted and there is none, or it does not know a lamp; UsageError
 std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const RelightDevice& device,
                                                  const Progress& progress);

@@ -72,7 +72,8 @@ void Viewer::run() {
 void Viewer::frame(double wait) {
   window_.begin_frame(busy() && !drawing_more_ && wait > 0 ? 0.03 : wait, hands_);
   const Stopwatch frame_watch;
-  const std::vector<Rgb> before = state_.ready() ? state_.screen().mix().weights : std::vector<Rgb>();
+  const std::vector<Rgb> before =
+      hands_ && state_.ready() ? state_.screen().mix().weights : std::vector<Rgb>();
   for (const std::string& file : window_.take_dropped()) attempt([&] { drop(file); });
   take_results();
   keys();
@@ -150,10 +151,14 @@ void Viewer::take_results() {
     if (!problem.empty()) note(problem);
 }
 
-void Viewer::show(std::shared_ptr<const Opened> opened) {
+void Viewer::forget_light() {
   measuring_.stop(), tracing_.stop(), mirroring_.stop();
   mirrored_ = 0;
   reference_.reset(), traced_.reset();
+}
+
+void Viewer::show(std::shared_ptr<const Opened> opened) {
+  forget_light();
   auto canvas = std::make_unique<Canvas>(window_.context(), opened);
   const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
   // A finer bake of the same scene: faders, camera and goals stay.
@@ -175,10 +180,8 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
 }
 
 void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
-  measuring_.stop(), tracing_.stop(), mirroring_.stop();
-  mirrored_ = 0;
+  forget_light();
   forget_lamps();
-  reference_.reset(), traced_.reset();
   for (const std::string& name : opened->picture.picture.left_out)
     note("'" + name + "' is left out: only flat, full channels are kept");
   auto sheet = std::make_unique<Sheet>(window_.context(), std::move(opened));

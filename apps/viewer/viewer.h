@@ -114,6 +114,8 @@ class Viewer {
   /// Faders, exposure and scales as they are when something else is opened.
   void start_session(const std::vector<GroupInfo>& groups);
   void take_results();
+  /// What was found by rays for what was shown.
+  void forget_light();
   void frame(double wait);
   void draw_canvas(ImVec2 at, ImVec2 size);
   void draw_sheet(ImVec2 at, ImVec2 size);

@@ -66,6 +66,7 @@ std::string host() {
 
 /// What processes of this machine left that died while they wrote beside the same target.
 void remove_left(const fs::path& target, const std::string& mark) {
+  if (target.parent_path().string().find(mark) != std::string::npos) return;  // a new folder as a whole
   std::error_code ec;
   const std::string begin = target.filename().string() + mark;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
