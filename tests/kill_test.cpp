@@ -40,27 +40,31 @@ class Kill : public test::FaultyRoom {
     const std::vector<std::string> before = names();
 
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> moment(0, 1.1 * whole.count());
+    std::uniform_real_distribution<double> share(0, 1);
+    double reach = 1.1 * whole.count();  // less where the machine has become quicker since
     const int kills = times();
     int killed = 0, replaced = 0, stands = 0, last = -1;
-    for (int k = 0; k < kills; ++k) {
+    for (int k = 0; killed < kills; ++k) {
+      ASSERT_LT(k, 4 * kills) << "most runs end before they are killed";
       const int next = 1 - stands;
       std::vector<std::string> words = next == 0 ? a : b;
       if (resumes && last == next) words.push_back("--resume");
       last = next;
       const pid_t process = test::start_sconce(words);
-      std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+      std::this_thread::sleep_for(std::chrono::duration<double>(reach * share(random)));
       ::kill(process, SIGKILL);
       int status = 0;
       ::waitpid(process, &status, 0);
-      killed += WIFSIGNALED(status) ? 1 : 0;
       ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0) << join(words, " ");
+      if (WIFSIGNALED(status))
+        ++killed;
+      else
+        reach *= 0.95;
       const std::string now = content(path(output));
       ASSERT_TRUE(now == states[0] || now == states[1]) << "neither old nor new after " << k;
       if (now != states[stands]) stands = next, ++replaced;
     }
-    std::cout << killed << " of " << kills << " killed, " << replaced << " times replaced\n";
-    EXPECT_GT(killed, kills / 2);
+    std::cout << killed << " killed, " << replaced << " times replaced\n";
     done(b);
     EXPECT_EQ(content(path(output)), states[1]);
     done(a);
