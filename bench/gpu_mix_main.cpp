@@ -31,7 +31,7 @@ class Screen {
         "#version 450 core\n" + light.glsl() + show + R"(
 out vec4 color;
 void main() {
-  vec3 light = illuminance(gl_FragCoord.xy / vec2(1920.0, 1080.0), 0);
+  vec3 light = illuminance(gl_FragCoord.xy / vec2(1920.0, 1080.0), 0, vec3(0.0));
   color = vec4()" +
             (toned ? "linear_to_srgb(tone_map(light * 0.05, ToneParams(16.0, 0.18, 0.85)))" : "light") +
             ", 1.0);\n}\n");
@@ -56,7 +56,7 @@ class ByteLightmap : public gpu::LightSource {
   ByteLightmap(const gpu::Context& context, int side)
       : texture_(context, {.format = GL_RGBA8, .width = side, .height = side}, "lightmap") {}
   std::string glsl() const override {
-    return "uniform sampler2D lightmap;\nvec3 illuminance(vec2 uv, int page) {\n  return texture(lightmap, "
+    return "uniform sampler2D lightmap;\nvec3 illuminance(vec2 uv, int page, vec3 offset) {\n  return texture(lightmap, "
            "uv).rgb;\n}\n";
   }
   void bind(const gpu::Program& program, int unit) const override {

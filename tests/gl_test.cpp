@@ -199,10 +199,12 @@ TEST_F(GlPictures, EveryEncodingInEveryTier) {
       // Linear, relative to each value but for what is darker than a hundredth of the mean.
       const Image linear = gl.linear();
       std::size_t alike = 0;
+      // Hardware filters, of albedo too, in steps of 1/256 texel between what may differ by far more than itself.
+      const float near = context.capabilities().software ? 1e-3f : 1.0f / 64;
       const auto foot = static_cast<float>(0.01 * metering.log_mean);
       for (std::size_t i = 0; i < expected.data.size(); ++i)
         alike +=
-            std::abs(linear.data[i] - expected.data[i]) <= 1e-3f * std::max(expected.data[i], foot) ? 1 : 0;
+            std::abs(linear.data[i] - expected.data[i]) <= near * std::max(expected.data[i], foot) ? 1 : 0;
       EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(expected.data.size()));
     }
   }

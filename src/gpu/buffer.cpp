@@ -2,6 +2,9 @@
 #include "gpu/buffer.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
 
 #include "core/error.h"
 
@@ -16,10 +19,15 @@ Buffer::Buffer(const Context& context, std::size_t bytes, const void* data, cons
   // Shaders read whole words; no buffer may be empty.
   constexpr std::size_t kAlign = 16;
   const std::size_t room = std::max(kAlign, (bytes + kAlign - 1) / kAlign * kAlign);
+  // Filled as it is made: NVIDIA's driver may run a clear after the write that follows it.
+  std::vector<std::byte> padded;
+  if (data == nullptr || bytes < room) {
+    padded.resize(room);
+    if (data != nullptr) std::memcpy(padded.data(), data, bytes);
+    data = padded.data();
+  }
   glCreateBuffers(1, &handle_);
-  glNamedBufferStorage(handle_, static_cast<GLsizeiptr>(room), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  if (data == nullptr || bytes < room) clear();
-  if (data != nullptr) write(bytes, data);
+  glNamedBufferStorage(handle_, static_cast<GLsizeiptr>(room), data, GL_DYNAMIC_STORAGE_BIT);
 }
 
 void Buffer::write(std::size_t bytes, const void* from) const {

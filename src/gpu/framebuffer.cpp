@@ -18,20 +18,18 @@ Framebuffer::Framebuffer(const Texture& color, int layer, const Texture* depth,
   }
   colors_ = static_cast<int>(points.size());
   glNamedFramebufferDrawBuffers(handle_, colors_, points.data());
-  has_depth_ = depth != nullptr;
-  if (has_depth_) attach(GL_DEPTH_ATTACHMENT, *depth, 0);
+  if (depth != nullptr) attach_depth(*depth, 0);
   check();
 }
 
 Framebuffer::Framebuffer(DepthOnly, const Texture& depths, int layer) : Framebuffer(depths.params()) {
-  attach(GL_DEPTH_ATTACHMENT, depths, layer);
-  has_depth_ = true;
+  attach_depth(depths, layer);
   check();
 }
 
 Framebuffer::Framebuffer(DepthOnly, const Texture& depths) : Framebuffer(depths.params()) {
   glNamedFramebufferTexture(handle_, GL_DEPTH_ATTACHMENT, depths.handle(), 0);
-  has_depth_ = true;
+  depth_ = depths.handle(), layers_ = depths.params().layers;
   check();
 }
 
@@ -40,6 +38,11 @@ void Framebuffer::attach(GLenum point, const Texture& texture, int layer) const 
     glNamedFramebufferTextureLayer(handle_, point, texture.handle(), 0, layer);
   else
     glNamedFramebufferTexture(handle_, point, texture.handle(), 0);
+}
+
+void Framebuffer::attach_depth(const Texture& texture, int layer) {
+  attach(GL_DEPTH_ATTACHMENT, texture, layer);
+  depth_ = texture.handle(), layer_ = layer, layers_ = 1;
 }
 
 void Framebuffer::check() const {
@@ -57,7 +60,10 @@ void Framebuffer::use() const {
 void Framebuffer::clear() const {
   const float zero[4] = {0, 0, 0, 0};
   for (int i = 0; i < colors_; ++i) glClearNamedFramebufferfv(handle_, GL_COLOR, i, zero);
-  if (has_depth_) glClearNamedFramebufferfv(handle_, GL_DEPTH, 0, zero);
+  // By the texture: after a framebuffer's depth was cleared to 0, NVIDIA's driver 580 dropped tiles of
+  // triangles that are greater.
+  if (depth_ != 0)
+    glClearTexSubImage(depth_, 0, 0, 0, layer_, width_, height_, layers_, GL_DEPTH_COMPONENT, GL_FLOAT, zero);
 }
 
 void Framebuffer::read(GLenum format, GLenum type, void* pixels) const {

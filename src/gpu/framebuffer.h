@@ -36,11 +36,13 @@ class Framebuffer {
     glCreateFramebuffers(1, &handle_);
   }
   void attach(GLenum point, const Texture& texture, int layer) const;
+  void attach_depth(const Texture& texture, int layer);
   void check() const;
 
   GLuint handle_ = 0;
   int width_, height_, colors_ = 0;
-  bool has_depth_ = false;
+  GLuint depth_ = 0;            ///< a texture
+  int layer_ = 0, layers_ = 0;  ///< of it
 };
 
 }  // namespace sconce::gpu

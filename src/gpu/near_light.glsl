@@ -24,17 +24,18 @@ float near_mean(int term, vec2 st, float size) {
   ivec2 first = min(ivec2(low), pixels - 1), last = clamp(ivec2(ceil(high)) - 1, first, pixels - 1);
   bvec2 one = equal(first, last);
   vec2 begin = mix(vec2(first + 1) - low, high - low, one), end = mix(high - vec2(last), vec2(0.0), one);
-  int x[4] = int[4](first.x, first.x + 1, max(last.x, first.x + 1), last.x + 1),
-      y[4] = int[4](first.y, first.y + 1, max(last.y, first.y + 1), last.y + 1);
-  float wx[3] = float[3](begin.x, 1.0, end.x), wy[3] = float[3](begin.y, 1.0, end.y);
-  ivec3 below;
+  // Sums at the corners of both: squares of four, which a gather reads at once around the point that they share.
+  vec2 scale = 1.0 / vec2(pixels + 1), near = vec2(first + 1) * scale, far = vec2(max(last, first + 1) + 1) * scale;
+  ivec4 a = textureGather(near_sums, vec3(near, term)), b = textureGather(near_sums, vec3(far.x, near.y, term)),
+        c = textureGather(near_sums, vec3(near.x, far.y, term)), d = textureGather(near_sums, vec3(far, term));
+  ivec4 row[4] = ivec4[4](ivec4(a.wz, b.wz), ivec4(a.xy, b.xy), ivec4(c.wz, d.wz), ivec4(c.xy, d.xy));
+  vec3 wx = vec3(begin.x, 1.0, end.x), wy = vec3(begin.y, 1.0, end.y);
+  ivec3 below = row[0].yzw - row[0].xyz;
   float sum = 0.0;
-  for (int j = 0; j < 4; ++j) {
-    ivec4 row;
-    for (int i = 0; i < 4; ++i) row[i] = texelFetch(near_sums, ivec3(x[i], y[j], term), 0).r;
-    ivec3 columns = row.yzw - row.xyz;
-    if (j > 0) sum += wy[j - 1] * dot(vec3(columns - below), vec3(wx[0], wx[1], wx[2]));
-    below = columns;
+  for (int j = 0; j < 3; ++j) {
+    ivec3 above = row[j + 1].yzw - row[j + 1].xyz;
+    sum += wy[j] * dot(vec3(above - below), wx);
+    below = above;
   }
   return sum / (4.0 * reach * reach);
 }

@@ -24,9 +24,10 @@ std::string SeenSurfaces::glsl() {
 
 void SeenSurfaces::shade(const Program& program, const Texture& picture) const {
   int unit = 0;
-  for (const Texture* texture : {&place, &normals, &albedo}) texture->bind(unit++);
+  for (const Texture* texture : {&depth, &place, &normals, &albedo}) texture->bind(unit++);
   unit = 0;
-  for (const char* name : {"sconce_place", "sconce_normals", "sconce_albedo"}) program.set(name, unit++);
+  for (const char* name : {"sconce_depth", "sconce_place", "sconce_normals", "sconce_albedo"})
+    program.set(name, unit++);
   glBindImageTexture(0, picture.handle(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
   const TextureParams& size = picture.params();
   glDispatchCompute(static_cast<GLuint>((size.width + kGroup - 1) / kGroup),

@@ -3,7 +3,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2D sconce_place, sconce_normals, sconce_albedo;
+uniform sampler2D sconce_depth, sconce_place, sconce_normals, sconce_albedo;
 layout(rgba32f, binding = 0) uniform image2D sconce_seen;
 
 struct SconceSurface {
@@ -12,11 +12,13 @@ struct SconceSurface {
 };
 
 SconceSurface sconce_surface(ivec2 at) {
-  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, imageSize(sconce_seen))))
-    return SconceSurface(false, vec3(0), vec3(0), vec3(0), vec3(0));
-  vec4 place = texelFetch(sconce_place, at, 0), normals = texelFetch(sconce_normals, at, 0);
+  const SconceSurface nothing = SconceSurface(false, vec3(0), vec3(0), vec3(0), vec3(0));
+  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, imageSize(sconce_seen)))) return nothing;
+  if (texelFetch(sconce_depth, at, 0).r == 0.0) return nothing;
   vec3 albedo = texelFetch(sconce_albedo, at, 0).rgb;
-  return SconceSurface(place.w != 0.0 && albedo != vec3(0.0), place.xyz, sconce_octahedral(normals.xy),
+  if (albedo == vec3(0.0)) return nothing;
+  vec4 normals = texelFetch(sconce_normals, at, 0);
+  return SconceSurface(true, texelFetch(sconce_place, at, 0).xyz, sconce_octahedral(normals.xy),
                        sconce_octahedral(normals.zw), albedo);
 }
 

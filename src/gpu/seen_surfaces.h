@@ -11,7 +11,8 @@ namespace sconce::gpu {
 
 /// What one pass of a picture shows, per pixel: RGBA float textures.
 struct SeenSurfaces {
-  const Texture& place;    ///< xyz, m; w 0 where nothing is
+  const Texture& depth;    ///< 0 where nothing is; there the others say nothing
+  const Texture& place;    ///< xyz, m
   const Texture& normals;  ///< towards the camera, octahedral: xy interpolated, zw the face's
   const Texture& albedo;   ///< diffuse; black on backs that are
 
@@ -20,7 +21,7 @@ struct SeenSurfaces {
   /// @param picture  RGBA floats of that size: radiance, cd/m2
   void shade(const Program& program, const Texture& picture) const;
 
-  static constexpr int kUnits = 3;  ///< that shade() uses, from 0 on
+  static constexpr int kUnits = 4;  ///< that shade() uses, from 0 on
   /// gpu/octahedral.glsl and gpu/seen_surfaces.glsl.
   static std::string glsl();
 };

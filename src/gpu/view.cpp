@@ -146,13 +146,13 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
   // Rows run downwards, which turns windings round.
   glFrontFace(glm::determinant(lens.plane()) > 0 ? GL_CW : GL_CCW);
 
-  if (options.first == 0) targets_->total.clear();
+  summed_ = params.samples > 1;
+  if (summed_ && options.first == 0) targets_->total.clear();
   for (int s = options.first; s < samples_; ++s) {
     progress.check();
     progress.at("render", static_cast<uint64_t>(s), static_cast<uint64_t>(params.samples));
     const Vec2 shift =
         params.samples == 1 ? Vec2(0) : Vec2(0.5f) - Sampler(params.seed, 0, static_cast<uint32_t>(s)).next();
-    if (!added.empty()) surfaces_->pass.clear();
     targets_->pass.use();
     targets_->pass.clear();
     if (options.look == Look::picture) draw_sky(lens, weights, shift);
@@ -165,26 +165,29 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     geometry_.draw(surface, weights);
     glDisable(GL_DEPTH_TEST);
     for (AddedLight* more : added)
-      more->add({surfaces_->place, surfaces_->normals, surfaces_->albedo}, targets_->color);
-
-    targets_->total.use();
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
-    glBlendEquation(GL_FUNC_ADD);
-    glBindVertexArray(nothing_);
-    add_.use();
-    add_.set("pass", 0);
-    targets_->color.bind(0);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_BLEND);
+      more->add({targets_->depth, surfaces_->place, surfaces_->normals, surfaces_->albedo}, targets_->color);
+    if (summed_) add_pass();
     context_->check("drawing the picture");
   }
+}
+
+void View::add_pass() const {
+  targets_->total.use();
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glBlendEquation(GL_FUNC_ADD);
+  glBindVertexArray(nothing_);
+  add_.use();
+  add_.set("pass", 0);
+  targets_->color.bind(0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
 }
 
 std::vector<float> View::sums() const {
   std::vector<float> rgba(4 * static_cast<std::size_t>(targets_->width()) *
                           static_cast<std::size_t>(targets_->height()));
-  targets_->total.read(GL_RGBA, GL_FLOAT, rgba.data());
+  (summed_ ? targets_->total : targets_->pass).read(GL_RGBA, GL_FLOAT, rgba.data());
   context_->check("reading the picture");
   for (float& v : rgba) v /= static_cast<float>(samples_);
   return rgba;
@@ -211,7 +214,7 @@ Image8 View::toned(const Exposure& exposure, const ToneMapper& mapper) const {
 }
 
 const Texture& View::sum() const {
-  return targets_->sum;
+  return summed_ ? targets_->sum : targets_->color;
 }
 
 }  // namespace sconce::gpu

@@ -61,6 +61,7 @@ class View {
   struct Surfaces;
   const Program& surface_for(const LightSource& light);
   void draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shift) const;
+  void add_pass() const;
   std::vector<float> sums() const;
 
   const Context* context_;
@@ -74,6 +75,7 @@ class View {
   std::unique_ptr<Surfaces> surfaces_;  ///< where light was added
   GLuint nothing_ = 0;                  ///< vertex array of shaders that need no vertices
   int samples_ = 0;
+  bool summed_ = false;  ///< else the one pass is the sum
 };
 
 }  // namespace sconce::gpu
