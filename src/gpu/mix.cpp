@@ -67,6 +67,8 @@ AtlasMix::AtlasMix(const Context& context, const EncodedLayers& layers, const Sh
                             ? std::make_unique<Program>("mix", pass.text())
                             : std::make_unique<Program>("mix", whole_target_vertex(), pass.text()));
   glCreateVertexArrays(1, &nothing_);
+  // A data-centre card was seen, now and then, to mix what had not yet arrived.
+  glFinish();
 }
 
 AtlasMix::~AtlasMix() {
