@@ -119,4 +119,27 @@ Scene make_louvre() {
   return bench.finish("louvre");
 }
 
+Scene make_washer() {
+  constexpr float kHalf = 59, kDepth = 20, kLed = 2;
+  constexpr int kLeds = 6;
+  Bench bench;
+  MeshBuilder mirror, trough, leds;
+  // The mirror leans outwards from beside the LEDs.
+  mirror.part(1), trough.part(1), leds.part(1);
+  const Vec3 foot(-kHalf, kDepth, 2), along(2 * kHalf, 0, 0);
+  add_rectangle(mirror, foot, along, Vec3(0, -kDepth, 12));
+  bench.add("side", "mirror", mirror);
+  add_rectangle(trough, Vec3(-kHalf, 0, -14), along, Vec3(0, kDepth, 0));
+  add_rectangle(trough, Vec3(-kHalf, kDepth, -14), along, Vec3(0, 0, 16));
+  add_rectangle(trough, Vec3(-kHalf, 0, -14), Vec3(0, kDepth, 0), Vec3(0, 0, 28));
+  add_rectangle(trough, Vec3(kHalf, 0, -14), Vec3(0, 0, 28), Vec3(0, kDepth, 0));
+  bench.add("trough", "white", trough);
+  for (int i = 0; i < kLeds; ++i) {
+    const float x = kHalf * (static_cast<float>(2 * i + 1) / kLeds - 1);
+    add_rectangle(leds, Vec3(x - kLed / 2, kDepth - 0.1f, -2), Vec3(kLed, 0, 0), Vec3(0, 0, kLed));
+  }
+  bench.add_emitter("leds", leds, 300);
+  return bench.finish("washer");
+}
+
 }  // namespace sconce::demo

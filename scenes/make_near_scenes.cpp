@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   try {
     using namespace sconce::demo;
     for (const sconce::Scene& scene :
-         {make_torch(), make_bicycle_light(), make_louvre(), make_crypt(), make_cloister()})
+         {make_torch(), make_bicycle_light(), make_louvre(), make_washer(), make_crypt(), make_cloister()})
       sconce::write_file(std::filesystem::path(argv[1]) / (scene.name + ".glb"), write_glb(scene));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_near_scenes: %s\n", error.what());

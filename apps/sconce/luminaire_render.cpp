@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "app.h"
 #include "core/error.h"
@@ -45,6 +46,30 @@ Image paint(const Wall& wall, const Progress& progress, const Lux& lux) {
     for (int x = 0; x < wall.size; ++x) out.set_rgb(x, y, Rgb(static_cast<float>(lux(wall.at(x, y)))));
     progress.at("rows", ++rows, static_cast<uint64_t>(wall.size));
   });
+  return out;
+}
+
+/// What a light field predicts of its errors (ADR 39), as shares of the light on a wall.
+struct Predicted {
+  double geometry = 0, detail = 0, noise = 0;
+};
+
+/// @param exact_below  where eq. 5 takes over, nothing of the geometry is frozen
+Predicted predict(const Wall& wall, const NearLamp& lamp, double exact_below) {
+  constexpr int kSide = 32;  // points along an edge
+  const Wall coarse{wall.distance, wall.width, kSide};
+  const double pixel = wall.width / wall.size;
+  double light = 0;
+  Predicted out;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const Vec3 at = coarse.at(x, y), up(0, 0, 1);
+      const double lux = std::abs(lamp.approximate(at, up)), bound = lamp.bound(at, up);
+      light += lux;
+      out.geometry += bound > exact_below ? 0 : bound * lux;
+      out.detail += lamp.detail(at, up), out.noise += lamp.noise(at, up, pixel);
+    }
+  for (double* v : {&out.geometry, &out.detail, &out.noise}) *v = light > 0 ? *v / light : 0;
   return out;
 }
 
@@ -122,10 +147,10 @@ int run_luminaire_render(int argc, const char* const* argv) {
   options.option("--distance", &distance, "metres from the lamp to the wall");
   options.option("--width", &width, "metres of wall; 0 = twice the distance");
   options.option("--size", &size, "pixels of the picture's edge");
-  options.option("--exact-below", &exact_below,
-                 "light fields: error that the shift-invariant approximation may have by its bound; where it "
-                 "is above, the exact "
-                 "reconstruction is used (0 = everywhere)");
+  options.option(
+      "--exact-below", &exact_below,
+      "light fields: error that the shift-invariant approximation may have by the geometry that it "
+      "freezes; where it is above, the exact reconstruction is used (0 = everywhere)");
   if (const auto code = options.parse(argc, argv)) return *code;
   const std::string type = lower(std::filesystem::path(output).extension().string());
   if (type != ".exr" && type != ".png")
@@ -139,10 +164,12 @@ int run_luminaire_render(int argc, const char* const* argv) {
   const Wall wall{distance, width > 0 ? width : 2 * distance, size};
 
   Image image;
+  std::optional<Predicted> predicted;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
     const NearLamp lamp(read_light_field(file));
     image =
         paint(wall, progress, [&](const Vec3& x) { return lamp.illuminance(x, Vec3(0, 0, 1), exact_below); });
+    predicted = predict(wall, lamp, exact_below);
   } else {
     try {
       image = land(wall, file, progress);
@@ -162,13 +189,19 @@ int run_luminaire_render(int argc, const char* const* argv) {
     write_exr(output, image, PixelType::full);
   else
     write_picture(output, image, most);
-  if (options.json)
-    fmt::print(
-        "{}\n",
-        nlohmann::json{{"file", output}, {"lux_most", most}, {"lux_mean", mean}, {"lumens", lumens}}.dump(2));
-  else if (!options.quiet)
+  if (options.json) {
+    nlohmann::json out{{"file", output}, {"lux_most", most}, {"lux_mean", mean}, {"lumens", lumens}};
+    if (predicted)
+      out["predicted_error"] = {
+          {"geometry", predicted->geometry}, {"detail", predicted->detail}, {"noise", predicted->noise}};
+    fmt::print("{}\n", out.dump(2));
+  } else if (!options.quiet) {
     fmt::print("{}: {:.4g} lux at most, {:.4g} in the mean, {:.5g} lm on {:g} x {:g} m\n", output, most, mean,
                lumens, wall.width, wall.width);
+    if (predicted)
+      fmt::print("predicted error: at most {:.2g} % by geometry, {:.2g} % by detail, noise {:.2g} %\n",
+                 100 * predicted->geometry, 100 * predicted->detail, 100 * predicted->noise);
+  }
   options.next({file});
   return kDone;
 }

@@ -84,7 +84,7 @@ void LightFieldBuilder::add(std::span<const SourceRay> rays) {
       lost_ += flux;
       continue;
     }
-    kept_ += flux;
+    kept_ += flux, squares_ += flux * flux;
     const Filters fx = filters_at(field_.basis, at.x), fy = filters_at(field_.basis, at.y);
     const std::size_t pixel =
         static_cast<std::size_t>(t) * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(s);
@@ -113,6 +113,7 @@ LightField LightFieldBuilder::finish() && {
   }
   const double area = field_.pixel * field_.pixel;
   for (std::size_t i = 0; i < sums_.size(); ++i) field_.irradiance[i] = static_cast<float>(sums_[i] / area);
+  field_.grain = kept_ > 0 ? squares_ / kept_ : 0;
   return std::move(field_);
 }
 

@@ -41,7 +41,7 @@ void write_light_field(const std::filesystem::path& path, const LightField& fiel
   number("columns", field.columns), number("rows", field.rows);
   number("spacing", field.spacing), number("first-x", field.first.x), number("first-y", field.first.y);
   number("distance", field.distance), number("corner-x", field.corner.x), number("corner-y", field.corner.y);
-  number("pixel", field.pixel);
+  number("pixel", field.pixel), number("grain", field.grain);
   write_exr(path, image, PixelType::full);
 }
 
@@ -72,6 +72,8 @@ LightField read_light_field(const std::filesystem::path& path) {
   if (!(out.spacing > 0 && out.distance > 0 && out.pixel > 0))
     throw Error(where, "has a spacing, distance or pixel that is not positive");
   out.first = {number("first-x"), number("first-y")}, out.corner = {number("corner-x"), number("corner-y")};
+  if (image.number.contains("sconce:grain")) out.grain = number("grain");
+  if (!(out.grain >= 0)) throw Error(where, "has a grain below 0");
   out.width = image.width, out.height = image.height;
   out.irradiance.resize(out.terms() * out.pixels());
   for (int n = 0; n < out.rows; ++n)

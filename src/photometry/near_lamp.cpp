@@ -114,15 +114,17 @@ double NearLamp::exact(const Vec3& x, const Vec3& normal, int points) const {
   return sum * step * step;
 }
 
+double NearLamp::window(double depth) const {
+  return filter_ * std::abs(1 - field_.distance / depth);
+}
+
 double NearLamp::facing(int m, int n, const glm::dvec3& x) const {
   const glm::dvec2 c = field_.center(m, n), across = c - glm::dvec2(x);
   const double depth = -x.z, d2 = glm::dot(across, across) + depth * depth;
-  // The filter seen from x covers this much of M.
-  const double window = filter_ * std::abs(1 - field_.distance / depth);
   return depth / (d2 * std::sqrt(d2)) *
          mean(static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
                   static_cast<std::size_t>(m),
-              onto_m(field_, c, x), window);
+              onto_m(field_, c, x), window(depth));
 }
 
 void NearLamp::terms(const Vec3& x, std::span<double> out) const {
@@ -143,29 +145,70 @@ double NearLamp::approximate(const Vec3& x, const Vec3& normal) const {
   return sum;
 }
 
-double NearLamp::bound(const Vec3& x, const Vec3& normal) const {
-  std::vector<double> values;
+template <class Value, class Cosine>
+double NearLamp::spread(const Vec3& x, double spacing, const Value& value, const Cosine& cosine) const {
+  if (!(x.z < 0)) return 0;
+  double error = 0, sum = 0;
+  const double depth = static_cast<double>(-x.z), reach = basis_reach(field_.basis) * spacing / depth,
+               frozen = spacing * std::abs(1 / field_.distance - 1 / depth);
   for (int n = 0; n < field_.rows; ++n)
-    for (int m = 0; m < field_.columns; ++m) values.push_back(term(m, n, x, normal));
-  return bound(x, values, field_.spacing);
+    for (int m = 0; m < field_.columns; ++m) {
+      const double light = value(m, n);
+      if (light == 0) continue;
+      const glm::dvec2 tangent = (field_.center(m, n) - glm::dvec2(glm::dvec3(x))) / depth;
+      sum += light;
+      error += std::abs(light) * (geometric_spread(glm::length(tangent), frozen) + reach * cosine(tangent));
+    }
+  return sum > 0 ? error / sum : 0;
+}
+
+double NearLamp::bound(const Vec3& x, const Vec3& normal) const {
+  const glm::dvec3 n(normal);
+  return spread(
+      x, field_.spacing, [&](int m, int k) { return term(m, k, x, normal); },
+      [&](const glm::dvec2& t) { return glm::length(glm::dvec2(n)) / glm::dot(n, glm::dvec3(t, 1)); });
 }
 
 double NearLamp::bound(const Vec3& x, std::span<const double> terms, double spacing) const {
+  return spread(
+      x, spacing,
+      [&](int m, int n) {
+        return terms[static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
+                     static_cast<std::size_t>(m)];
+      },
+      [](const glm::dvec2& t) { return glm::length(t) / (1 + glm::dot(t, t)); });
+}
+
+std::array<Vec3, 12> NearLamp::neighbours(const Vec3& x) const {
+  constexpr int kRings = 3, kDirections = 4;
+  std::array<Vec3, kRings * kDirections> out;
+  const double depth = static_cast<double>(-x.z),
+               blur = (window(depth) + 0.5 * field_.pixel) * depth / field_.distance;
+  for (int i = 0; i < kRings * kDirections; ++i) {
+    const double angle = std::numbers::pi * (i % kDirections) / kDirections, r = blur * (1 + i / kDirections);
+    out[static_cast<std::size_t>(i)] = Vec3(Vec2(r * glm::dvec2(std::cos(angle), std::sin(angle))), 0);
+  }
+  return out;
+}
+
+double NearLamp::detail(const Vec3& x, const Vec3& n) const {
   if (!(x.z < 0)) return 0;
-  double error = 0, sum = 0;
-  const double depth = static_cast<double>(-x.z), bell_width = 2 * basis_reach(field_.basis) * spacing,
-               dual_width = 4 * spacing;
-  std::size_t i = 0;
-  for (int n = 0; n < field_.rows; ++n)
-    for (int m = 0; m < field_.columns; ++m) {
-      const double value = terms[i++];
-      if (value == 0) continue;
-      const double tangent = glm::length(glm::dvec2(glm::dvec3(x)) - field_.center(m, n)) / depth;
-      sum += value;
-      error += std::abs(value) * (geometric_spread(tangent, dual_width / field_.distance) +
-                                  geometric_spread(tangent, bell_width / depth));
-    }
-  return sum > 0 ? error / sum : 0;
+  const double here = approximate(x, n);
+  double most = 0;
+  for (const Vec3& to : neighbours(x))
+    most = std::max(most, std::abs(0.5 * (approximate(x + to, n) + approximate(x - to, n)) - here));
+  return kDetail * most;
+}
+
+double NearLamp::noise(const Vec3& x, const Vec3& n, double width) const {
+  if (!(x.z < 0)) return 0;
+  const double depth = static_cast<double>(-x.z), filter = window(depth);
+  // Integral of the dual squared, per axis (methods.md 2.6). Filters see neighbouring squares of M, each with
+  // its own rays; where these lie within a pixel, all see the same rays, and duals sum to 1.
+  const double dual = field_.basis == NearBasis::bell ? 1.40113 : 2.8422,
+               apart = 1 + (dual - 1) * std::min(1.0, filter / field_.pixel), scale = depth / field_.distance,
+               area = (filter * filter + field_.pixel * field_.pixel) * scale * scale + width * width;
+  return apart * std::sqrt(std::abs(approximate(x, n)) * field_.grain / area);
 }
 
 double NearLamp::illuminance(const Vec3& x, const Vec3& normal, double tolerance) const {
