@@ -243,6 +243,46 @@ TEST(LuminaireVerb, FieldAndRender) {
   EXPECT_EQ(run_sconce({"luminaire", "convert", path("lamp.exr"), "-o", path("by-product.ies")}).code, 0);
   EXPECT_NEAR(flux(read_photometry(path("by-product.ies"))) / json.at("lumens").get<double>(), 1, 0.1);
   EXPECT_EQ(run_sconce({"luminaire", "field", rays, "-o", path("x.exr"), "--basis", "box"}).code, 2);
+  EXPECT_EQ(run_sconce({"luminaire", "field", rays, "-o", path("x.exr"), "--coding", "rgbe"}).code, 2);
+}
+
+// Light fields in colours: whatever the coding, the same flux and the same colours on a wall.
+TEST(LuminaireVerb, LightFieldsConvert) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& name) { return (folder / name).string(); };
+  const LightField field = test::colored_spots();
+  write_light_field(path("float.exr"), field);
+  const auto wall = [&](const std::string& name) {
+    const auto run = run_sconce(
+        {"luminaire", "render", path(name), "-o", path("wall.exr"), "--distance", "0.5", "--size", "8"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out.find("predicted error"), std::string::npos) << run.out;
+    return read_exr(path("wall.exr"));
+  };
+  const Image truth = wall("float.exr");
+  const float brightest = *std::max_element(truth.data.begin(), truth.data.end());
+  const Rgb middle = truth.rgb_at(2, 4);
+  EXPECT_GT(middle.r, 2 * middle.b);
+  for (const std::string coding : {"half", "srgbe"}) {
+    const auto run = run_sconce({"luminaire", "convert", path("float.exr"), "--coding", coding, "-o",
+                                 path(coding + ".exr"), "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NEAR(nlohmann::json::parse(run.out).at("lumens").get<double>(), flux(field), 2e-3 * flux(field));
+    EXPECT_LT(std::filesystem::file_size(path(coding + ".exr")),
+              0.7 * static_cast<double>(std::filesystem::file_size(path("float.exr"))));
+    const Image coded = wall(coding + ".exr");
+    for (std::size_t i = 0; i < truth.data.size(); ++i)
+      EXPECT_NEAR(coded.data[i], truth.data[i], 0.01f * brightest) << coding;
+  }
+  const auto scaled = run_sconce(
+      {"luminaire", "convert", path("half.exr"), "--lumens", "100", "-o", path("100.exr"), "--json"});
+  ASSERT_EQ(scaled.code, 0) << scaled.err;
+  EXPECT_NEAR(nlohmann::json::parse(scaled.out).at("lumens").get<double>(), 100, 1e-3);
+  EXPECT_FALSE(read_light_field(path("100.exr")).is_grey());
+  const auto wrong = run_sconce({"luminaire", "convert", path("wall.exr"), "-o", path("x.exr")});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_NE(wrong.err.find("wall.exr"), std::string::npos) << wrong.err;
+  EXPECT_FALSE(std::filesystem::exists(path("x.exr")));
 }
 
 // Four flat photographs of a screen: 0.5 x 8 lux on 0.1 x 0.1 m each.

@@ -26,4 +26,17 @@ inline LightField spots() {
   return field;
 }
 
+/// The same in colours: red as it is, green by columns mirrored, blue dim and even over the terms.
+inline LightField colored_spots() {
+  LightField field = spots();
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t term = 0; term < field.terms(); ++term) {
+      const auto columns = static_cast<std::size_t>(field.columns), m = term % columns;
+      for (const float v : field.image(c == 0 ? term : term - m + (c == 1 ? columns - 1 - m : columns / 2)))
+        field.color.push_back(c == 2 ? 0.3f * v : v);
+    }
+  set_luminance(field);
+  return field;
+}
+
 }  // namespace sconce::test

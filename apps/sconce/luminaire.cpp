@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "photometry/formats.h"
-#include "photometry/light_field_file.h"
 
 namespace sconce::app {
 
@@ -19,7 +18,8 @@ namespace {
 constexpr Verb kActions[] = {
     {"info", "what a photometric file or a ray file says: flux, beam, symmetry, size", run_luminaire_info},
     {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
-    {"convert", "IES to EULUMDAT and back; rays to a far field", run_luminaire_convert},
+    {"convert", "IES to EULUMDAT and back; rays to a far field; light fields in another coding",
+     run_luminaire_convert},
     {"field", "rays to a near-field light field", run_luminaire_field},
     {"acquire", "photographs of a lamp to a near-field light field", run_luminaire_acquire},
     {"render", "what the lamp alone throws onto a wall", run_luminaire_render},
@@ -72,6 +72,18 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
                               out.ray_flux));
   out.photometry = bins.table();
   return out;
+}
+
+void add_coding(Options& options, std::string& coding) {
+  options.option(
+      "--coding", &coding,
+      "light fields: how .exr keeps values, float (32 bits), half (1/2048), srgbe (4 bytes for three "
+      "values, 1/127 of the largest)");
+}
+
+FieldCoding parse_coding(const std::string& coding) {
+  if (const auto found = coding_named(coding)) return *found;
+  throw UsageError("--coding", "'" + coding + "' is unknown", "float, half, srgbe");
 }
 
 std::string describe(const Opening& o) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app.h"
+#include "photometry/light_field_file.h"
 #include "photometry/photometry.h"
 #include "photometry/rays.h"
 
@@ -36,6 +37,11 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
 
 /// Flux that lands on a large sphere around the lamp as the solvers see it, lm: what sconce renders.
 double rendered_flux(const Photometry& photometry);
+
+/// --coding of those that write light fields.
+void add_coding(Options& options, std::string& coding);
+/// @throws UsageError naming the choices
+FieldCoding parse_coding(const std::string& coding);
 
 /// "0.60 x 0.30 m box", "point".
 std::string describe(const Opening& opening);

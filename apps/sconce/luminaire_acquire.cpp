@@ -12,7 +12,6 @@
 #include "goniometer/acquisition.h"
 #include "image/io.h"
 #include "luminaire.h"
-#include "photometry/light_field_file.h"
 
 namespace sconce::app {
 
@@ -42,7 +41,7 @@ void write_preview(const std::filesystem::path& file, const Acquired& acquired) 
 }  // namespace
 
 int run_luminaire_acquire(int argc, const char* const* argv) {
-  std::string folder, output, settings;
+  std::string folder, output, settings, coding = "float";
   bool watch = false;
   Options options("luminaire acquire",
                   "Photographs of a lamp's filtered pattern, one per grid position, to a light field "
@@ -52,11 +51,13 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
                    "sconce luminaire render {FILE} -o wall.png"});
   options.positional("folder", &folder, "folder of photographs with its acquire.toml");
   options.option("-o,--output", &output, "light field to write, .exr");
+  add_coding(options, coding);
   options.option("--settings", &settings, "how they were taken; default FOLDER/acquire.toml");
   options.flag("--watch", &watch,
                "wait for pictures that are still to come; OUTPUT.preview.png shows those that are there");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (output.empty()) throw UsageError("-o", "is missing", "a file .exr");
+  const FieldCoding as = parse_coding(coding);
   const Progress progress = make_progress(options);
   const ThreadLimit threads(options.threads);
   const std::filesystem::path dir = folder;
@@ -75,7 +76,7 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
           "all pictures; --watch waits for them");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
-  write_light_field(output, acquired.field());
+  write_light_field(output, acquired.field(), as);
   const LightField& field = acquired.field();
   const double lumens = flux(field);
   if (options.json)

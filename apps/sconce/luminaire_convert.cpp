@@ -52,28 +52,49 @@ std::pair<double, double> convert_rays(const std::string& file, const std::strin
   return {before, after};
 }
 
+/// A light field in another coding, scaled where lumens are given. @return flux before, and as it is written
+std::pair<double, double> convert_field(const std::string& file, const std::string& output, double lumens,
+                                        FieldCoding coding) {
+  LightField field = read_light_field(file);
+  const double before = flux(field);
+  if (lumens > 0) {
+    if (!(before > 0)) throw Error(file, "has no light that could be scaled to --lumens");
+    const auto scale = static_cast<float>(lumens / before);
+    for (std::vector<float>* values : {&field.irradiance, &field.color})
+      for (float& v : *values) v *= scale;
+    field.grain *= lumens / before;
+  }
+  write_light_field(output, field, coding);
+  return {before, flux(read_light_field(output))};
+}
+
 }  // namespace
 
 int run_luminaire_convert(int argc, const char* const* argv) {
-  std::string file, output;
+  std::string file, output, coding = "float";
   double lumens = 0, step = 5;
   Options options(
       "luminaire convert",
-      "A photometric file in another format, the far field of rays or a light field, or rays to TM-25.",
-      {"sconce luminaire convert lamp.ldt -o lamp.ies",
-       "sconce luminaire convert lamp.tm25ray --lumens 800 -o lamp.ldt", "sconce luminaire check {FILE}"});
+      "A photometric file in another format, the far field of rays or a light field, rays to TM-25, or a "
+      "light "
+      "field in another coding.",
+      {"sconce luminaire convert lamp.tm25ray --lumens 800 -o lamp.ldt",
+       "sconce luminaire convert torch.exr --coding half -o small.exr", "sconce luminaire check {FILE}"});
   options.positional("file", &file, kAnyLamp);
-  options.option("-o,--output", &output,
-                 "file to write: .ies (LM-63-2002), .ldt (EULUMDAT); of rays also .tm25ray");
+  options.option(
+      "-o,--output", &output,
+      "file to write: .ies (LM-63-2002), .ldt (EULUMDAT); of rays also .tm25ray, of light fields .exr");
+  add_coding(options, coding);
   options.option("--lumens", &lumens, "scale to this luminous flux; 0 = as it is");
   options.option("--step", &step, "rays, light fields: degrees between angles of the table");
   if (const auto code = options.parse(argc, argv)) return *code;
-  if (output.empty()) throw UsageError("-o", "is missing", "a file .ies, .ldt or .tm25ray");
+  if (output.empty()) throw UsageError("-o", "is missing", "a file .ies, .ldt, .tm25ray or .exr");
   if (!(lumens >= 0)) throw UsageError("--lumens", "is negative", "lumens >= 0");
   if (!(step >= 0.5 && step <= 30)) throw UsageError("--step", "is out of range", "0.5 to 30 degrees");
   const std::string type = lower(std::filesystem::path(output).extension().string());
-  if (type != ".ies" && type != ".ldt" && type != ".tm25ray")
-    throw UsageError("-o", "'" + output + "' names no format", ".ies, .ldt, .tm25ray");
+  if (type != ".ies" && type != ".ldt" && type != ".tm25ray" && type != ".exr")
+    throw UsageError("-o", "'" + output + "' names no format", ".ies, .ldt, .tm25ray, .exr");
+  const FieldCoding as = parse_coding(coding);
   const Progress progress = make_progress(options);
   const auto report = [&](double before, double after) {
     if (options.json)
@@ -86,6 +107,10 @@ int run_luminaire_convert(int argc, const char* const* argv) {
   };
   if (type == ".tm25ray") {
     const auto [before, after] = convert_rays(file, output, lumens, progress);
+    return report(before, after);
+  }
+  if (type == ".exr") {
+    const auto [before, after] = convert_field(file, output, lumens, as);
     return report(before, after);
   }
   LuminaireSource source = read_luminaire(file, step, progress);

@@ -9,7 +9,6 @@
 #include "luminaire_rays.h"
 #include "measure/field.h"
 #include "photometry/formats.h"
-#include "photometry/light_field_file.h"
 
 namespace sconce::app {
 
@@ -34,7 +33,7 @@ void write_far(const std::string& file, const LampRays& rays, double scale) {
 }  // namespace
 
 int run_luminaire_field(int argc, const char* const* argv) {
-  std::string file, output, far, basis = "spline";
+  std::string file, output, far, basis = "spline", coding = "float";
   FieldParams params;
   double spacing = 5, distance = 0, count = 4e6;
   int seed = 1;
@@ -49,6 +48,7 @@ int run_luminaire_field(int argc, const char* const* argv) {
       "TM-25, LightTools or Zemax rays; or a scene (.glb, .obj, .fbx, ...) with emissive faces: a "
       "luminaire that hangs, nadir -y, metals its mirrors");
   options.option("-o,--output", &output, "light field to write, .exr");
+  add_coding(options, coding);
   options.option("--basis", &basis, "spline, or the paper's bell");
   options.option("--spacing", &spacing, "millimetres between filters on the sampling plane");
   options.option("--distance", &distance, "millimetres to the measurement plane; 0 = 25 spacings");
@@ -60,6 +60,7 @@ int run_luminaire_field(int argc, const char* const* argv) {
   options.option("--far", &far, "far field of the same rays to write too, .ies");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (output.empty()) throw UsageError("-o", "is missing", "a file .exr");
+  const FieldCoding as = parse_coding(coding);
   if (!(spacing > 0)) throw UsageError("--spacing", "is not positive", "millimetres > 0");
   if (!(distance >= 0)) throw UsageError("--distance", "is negative", "millimetres >= 0");
   if (!(params.angle > 0 && params.angle < 85))
@@ -74,7 +75,7 @@ int run_luminaire_field(int argc, const char* const* argv) {
   const LampRays rays(file, static_cast<uint64_t>(count), static_cast<uint32_t>(seed), progress);
   const MeasuredField measured = measure_field([&](const auto& f) { rays.each(f); }, params, file);
   const LightField& field = measured.field;
-  write_light_field(output, field);
+  write_light_field(output, field, as);
   if (!far.empty()) write_far(far, rays, measured.scale);
   const double spread = geometric_spread(1, 4 * field.spacing / field.distance);
   if (options.json)

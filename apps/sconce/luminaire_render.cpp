@@ -43,7 +43,7 @@ Image paint(const Wall& wall, const Progress& progress, const Lux& lux) {
   parallel_for(static_cast<std::size_t>(wall.size), 1, [&](std::size_t row) {
     progress.check();
     const int y = static_cast<int>(row);
-    for (int x = 0; x < wall.size; ++x) out.set_rgb(x, y, Rgb(static_cast<float>(lux(wall.at(x, y)))));
+    for (int x = 0; x < wall.size; ++x) out.set_rgb(x, y, lux(wall.at(x, y)));
     progress.at("rows", ++rows, static_cast<uint64_t>(wall.size));
   });
   return out;
@@ -118,16 +118,17 @@ Image paint_table(const Wall& wall, const Photometry& p, const Progress& progres
       if (sconce::sample(shape, x, sobol_pair(i, 0, 1), sample))
         sum += static_cast<double>(sample.radiance.g * std::max(0.0f, sample.direction.z));
     }
-    return sum / points;
+    return Rgb(static_cast<float>(sum / points));
   });
 }
 
-/// Brightest pixel white.
-void write_picture(const std::string& file, const Image& image, double most) {
+/// The brightest value white.
+void write_picture(const std::string& file, const Image& image) {
+  const float most = *std::max_element(image.data.begin(), image.data.end());
   Image8 out{image.width, image.height, 3, {}};
   for (const float v : image.data)
     out.data.push_back(static_cast<unsigned char>(
-        255 * linear_to_srgb(std::clamp(most > 0 ? v / static_cast<float>(most) : 0.0f, 0.0f, 1.0f)) + 0.5f));
+        255 * linear_to_srgb(std::clamp(most > 0 ? v / most : 0.0f, 0.0f, 1.0f)) + 0.5f));
   write_png(file, out);
 }
 
@@ -166,9 +167,18 @@ int run_luminaire_render(int argc, const char* const* argv) {
   Image image;
   std::optional<Predicted> predicted;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
-    const NearLamp lamp(read_light_field(file));
-    image =
-        paint(wall, progress, [&](const Vec3& x) { return lamp.illuminance(x, Vec3(0, 0, 1), exact_below); });
+    const LightField field = read_light_field(file);
+    const NearLamp lamp(field);
+    std::vector<NearLamp> colors;
+    for (int c = 0; c < 3 && !field.is_grey(); ++c) colors.emplace_back(channel_of(field, c));
+    const Vec3 up(0, 0, 1);
+    image = paint(wall, progress, [&](const Vec3& x) {
+      if (colors.empty()) return Rgb(static_cast<float>(lamp.illuminance(x, up, exact_below)));
+      const auto lux = [&](std::size_t c) {
+        return static_cast<float>(colors[c].illuminance(x, up, exact_below));
+      };
+      return Rgb(lux(0), lux(1), lux(2));
+    });
     predicted = predict(wall, lamp, exact_below);
   } else {
     try {
@@ -180,7 +190,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
   double sum = 0, most = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
-      const auto lux = static_cast<double>(image.at(x, y)[0]);
+      const auto lux = static_cast<double>(luminance(image.rgb_at(x, y)));
       sum += lux, most = std::max(most, lux);
     }
   const double mean = sum / (static_cast<double>(size) * size), lumens = mean * wall.width * wall.width;
@@ -188,7 +198,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
   if (type == ".exr")
     write_exr(output, image, PixelType::full);
   else
-    write_picture(output, image, most);
+    write_picture(output, image);
   if (options.json) {
     nlohmann::json out{{"file", output}, {"lux_most", most}, {"lux_mean", mean}, {"lumens", lumens}};
     if (predicted)

@@ -82,23 +82,8 @@ std::vector<int32_t> sums_of(const NearLamp& lamp, int m, int n, double& unit) {
 
 /// A light field on the device, for all lamps that have it.
 struct NearLights::Field {
-  Field(const Context& context, const NearLamp& lamp, int side)
-      : grid(lamp.field()),
-        sums(context,
-             {.format = GL_R32I,
-              .width = grid.width + 1,
-              .height = grid.height + 1,
-              .layers = static_cast<int>(grid.terms()),
-              .filter = GL_NEAREST},
-             "light field") {
-    std::vector<glm::vec4> all;
-    for (int n = 0; n < grid.rows; ++n)
-      for (int m = 0; m < grid.columns; ++m) {
-        double unit = 0;
-        sums.upload(GL_RED_INTEGER, GL_INT, sums_of(lamp, m, n, unit).data(), static_cast<int>(all.size()));
-        all.emplace_back(Vec2(grid.center(m, n)), static_cast<float>(unit), 0);
-      }
-    terms.emplace(context, std::span<const glm::vec4>(all), "terms of a light field");
+  Field(const Context& context, const NearField& field, int side) : grid(field.finest().field()) {
+    for (std::size_t c = 0; c < field.channels(); ++c) channels.emplace_back(context, field.channel(c));
     // Light falls beyond M by half of what a filter covers of it.
     const glm::dvec2 size = grid.pixel * glm::dvec2(grid.width, grid.height) + grid.spacing,
                      step = size / std::max(1.0, side - 2 * kMargin);
@@ -107,10 +92,31 @@ struct NearLights::Field {
   }
   int count() const { return static_cast<int>(grid.terms()); }
 
+  struct Channel {
+    Channel(const Context& context, const NearLamp& lamp)
+        : sums(context,
+               {.format = GL_R32I,
+                .width = lamp.field().width + 1,
+                .height = lamp.field().height + 1,
+                .layers = static_cast<int>(lamp.field().terms()),
+                .filter = GL_NEAREST},
+               "light field") {
+      const LightField& grid = lamp.field();
+      std::vector<glm::vec4> all;
+      for (int n = 0; n < grid.rows; ++n)
+        for (int m = 0; m < grid.columns; ++m) {
+          double unit = 0;
+          sums.upload(GL_RED_INTEGER, GL_INT, sums_of(lamp, m, n, unit).data(), static_cast<int>(all.size()));
+          all.emplace_back(Vec2(grid.center(m, n)), static_cast<float>(unit), 0);
+        }
+      terms.emplace(context, std::span<const glm::vec4>(all), "terms of a light field");
+    }
+    Texture sums;
+    std::optional<Buffer> terms;
+  };
   const LightField& grid;
-  Texture sums;
-  std::optional<Buffer> terms;
-  Vec2 low, texel;  ///< corner and texels of shadow maps on M, m
+  std::vector<Channel> channels;  ///< one, or red, green and blue
+  Vec2 low, texel;                ///< corner and texels of shadow maps on M, m
 };
 
 struct NearLights::Programs {
@@ -129,8 +135,7 @@ NearLights::NearLights(const Context& context, const Geometry& geometry, const B
     const auto* shape = std::get_if<NearFieldLamp>(&lamps.all()[number].shape);
     if (shape == nullptr) continue;
     std::unique_ptr<Field>& field = fields_[shape->field.get()];
-    if (field == nullptr)
-      field = std::make_unique<Field>(context, shape->field->finest(), params.shadow_side);
+    if (field == nullptr) field = std::make_unique<Field>(context, *shape->field, params.shadow_side);
     lamps_.push_back({field.get(), shape->position, shape->to_world, weight * shape->scale, {}});
     if (params.shadow_side > 0)
       lamps_.back().depths.emplace(
@@ -153,16 +158,18 @@ void NearLights::move(std::size_t i, const Vec3& position, const Mat3& frame) {
   lamps_[i].position = position, lamps_[i].frame = frame, lamps_[i].drawn = false;
 }
 
-void NearLights::use(const Program& program, const Lamp& lamp) const {
+void NearLights::use(const Program& program, const Lamp& lamp, std::size_t channel) const {
   const LightField& grid = lamp.field->grid;
+  const Rgb &all = lamp.color,
+            alone(channel == 0 ? all.r : 0, channel == 1 ? all.g : 0, channel == 2 ? all.b : 0);
   program.use();
   program.set("near_sums", kSumsUnit), program.set("near_depths", kDepthsUnit);
-  lamp.field->sums.bind(kSumsUnit);
+  lamp.field->channels[channel].sums.bind(kSumsUnit);
   if (lamp.depths) lamp.depths->bind(kDepthsUnit);
-  lamp.field->terms->bind(kTerms);
+  lamp.field->channels[channel].terms->bind(kTerms);
   program.set("near_shadows", lamp.depths ? 1 : 0);
   program.set("near_position", lamp.position), program.set("near_frame", lamp.frame);
-  program.set("near_color", lamp.color);
+  program.set("near_color", lamp.field->channels.size() > 1 ? alone : all);
   program.set("near_distance", static_cast<float>(grid.distance));
   program.set("near_filter", static_cast<float>(grid.spacing));
   program.set("near_pixel", static_cast<float>(grid.pixel)), program.set("near_corner", Vec2(grid.corner));
@@ -175,7 +182,7 @@ void NearLights::draw_maps(const Lamp& lamp, int first, int count) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
-  use(shapes, lamp);
+  use(shapes, lamp, 0);
   shapes.set("size", static_cast<float>(params_.shadow_side));
   const Framebuffer target(Framebuffer::DepthOnly{}, *lamp.depths);
   target.use();
@@ -191,16 +198,20 @@ void NearLights::draw_maps(const Lamp& lamp, int first, int count) {
 
 template <class F>
 void NearLights::each_pass(Lamp& lamp, const Program& program, const F& sum) {
+  const std::size_t channels = lamp.field->channels.size();
   const int all = lamp.field->count(), most = params_.terms_per_pass > 0 ? params_.terms_per_pass : all;
   for (int first = 0; first < all; first += most) {
     const int count = std::min(most, all - first);
     if (lamp.depths && !lamp.drawn) draw_maps(lamp, first, count);
     lamp.drawn = count == all;
-    use(program, lamp);
-    program.set("near_first", first), program.set("near_count", count);
-    program.set("near_last", first + count == all ? 1 : 0);
-    sum();
-    ++passes_.lighting;
+    for (std::size_t c = 0; c < channels; ++c) {
+      use(program, lamp, c);
+      program.set("near_first", first), program.set("near_count", count);
+      program.set("near_begin", first == 0 && c == 0 ? 1 : 0);
+      program.set("near_last", first + count == all && c + 1 == channels ? 1 : 0);
+      sum();
+      ++passes_.lighting;
+    }
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lamps that are light fields, with shadow maps: on an operator's points, and on what a picture shows
 // (deferred shading). Every term is a textured spot at its filter's centre (Granier, Goesele, Heidrich,
-// Seidel 2003, eq. 14).
+// Seidel 2003, eq. 14). Colours are three
+// passes with the same maps.
 #pragma once
 
 #include <map>
@@ -54,7 +55,7 @@ class NearLights : public AddedLight {
     std::optional<Texture> depths;
     bool drawn = false;  ///< all maps are there
   };
-  void use(const Program& program, const Lamp& lamp) const;
+  void use(const Program& program, const Lamp& lamp, std::size_t channel) const;
   /// Draws what is missing of the maps, and calls sum() for each pass with the uniforms set.
   template <class F>
   void each_pass(Lamp& lamp, const Program& program, const F& sum);

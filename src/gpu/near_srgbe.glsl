@@ -3,7 +3,7 @@
 // section 4.2), after gpu/seen_surfaces.glsl, gpu/near_light.glsl and encode/srgbe8.glsl.
 
 layout(rgba8, binding = 1) uniform image2D near_kept;
-uniform bool near_last;  // of the lamp's passes
+uniform bool near_begin, near_last;  // of the lamp's passes
 
 // Twin of encode_srgbe8().
 vec4 near_encode(vec3 v) {
@@ -20,7 +20,7 @@ void main() {
   if (!s.there) return;
   vec3 e;
   sconce_arriving(s.place, s.normal, s.face, e);
-  if (near_first > 0) e += decode_srgbe8(imageLoad(near_kept, at), vec4(1.0)).rgb;
+  if (!near_begin) e += decode_srgbe8(imageLoad(near_kept, at), vec4(1.0)).rgb;
   vec4 code = near_encode(e);
   if (near_last) sconce_add(at, s, decode_srgbe8(code, vec4(1.0)).rgb);
   else imageStore(near_kept, at, code);

@@ -18,28 +18,36 @@ class NearField {
   /// that is above the tolerance: any point, by eq. 5.
   struct Sample {
     glm::dvec2 at{0};  ///< on the sampling plane, m
-    double lux = 0;    ///< may be negative; 0: nothing arrives
+    Rgb lux;           ///< may be negative; 0: nothing arrives
   };
   Sample sample(const Vec3& x, Vec2 u, double tolerance) const;
 
   /// A particle from the sampling plane through the measurement plane.
   EmittedLight emit(Vec2 where, Vec2 whither) const;
 
-  double flux() const { return flux_; }  ///< lm
+  const Rgb& flux() const { return flux_; }  ///< lm, of each channel
   Vec3 center() const { return center_; }
   float radius() const { return radius_; }  ///< of what the filters reach
 
   /// The lamp for a place so far away: the coarsest whose filters are small seen from there.
-  const NearLamp& finest() const { return levels_.front(); }
-  const NearLamp& level(const Vec3& x) const { return levels_[level_index(x)]; }
+  const NearLamp& finest() const { return levels_.front().channels.front(); }
+  const NearLamp& level(const Vec3& x) const { return levels_[level_index(x)].channels.front(); }
+
+  /// One where the light field is grey, three where it has colours; channel(0) is finest().
+  std::size_t channels() const { return levels_.front().channels.size(); }
+  const NearLamp& channel(std::size_t i) const { return levels_.front().channels[i]; }
 
  private:
+  struct Level {
+    std::vector<NearLamp> channels;
+    AliasTable by_flux;  ///< terms by the sum of the channels' |flux|
+  };
   std::size_t level_index(const Vec3& x) const;
 
-  std::vector<NearLamp> levels_;     ///< finest first
-  std::vector<AliasTable> by_flux_;  ///< per level: terms by |flux|
-  AliasTable pixels_;                ///< of the measurement plane, by the terms' |E|
-  double flux_ = 0, absolute_ = 0;   ///< lm; of |E|
+  std::vector<Level> levels_;  ///< finest first
+  AliasTable pixels_;          ///< of the measurement plane, by the terms' |E|, all channels together
+  Rgb flux_{0.0f};             ///< lm
+  double absolute_ = 0;        ///< lm; of |E|, all channels together
   Vec3 center_{0};
   float radius_ = 0;
 };

@@ -69,6 +69,48 @@ TEST(NearField, SamplesAreTheSumsOfTheirEquations) {
   }
 }
 
+// Red, green and blue from patterns of their own: each as the grey light field of that channel, whichever
+// equation; particles too.
+TEST(NearField, ColoursAreChannelsOfTheirOwn) {
+  LightField colored = *uneven(NearBasis::bell);
+  const std::size_t size = colored.irradiance.size();
+  for (std::size_t i = 0; i < 3 * size;
+       ++i)  // blue has no light where red is brightest, some green is negative
+    colored.color.push_back(i < size       ? colored.irradiance[i]
+                            : i < 2 * size ? sobol_pair(static_cast<uint32_t>(i), 0, 7).x - 0.1f
+                                           : 0.2f * std::max(0.0f, 3 - colored.irradiance[i - 2 * size]));
+  set_luminance(colored);
+  const NearField field(colored);
+  ASSERT_EQ(field.channels(), 3u);
+  for (const double tolerance : {1e9, 0.0})
+    for (const Vec3& x : {Vec3(0.01f, 0, -0.03f), Vec3(0.05f, 0.02f, -0.1f), Vec3(0.1f, -0.1f, -0.4f)}) {
+      constexpr uint32_t kCount = 1 << 15;
+      glm::dvec3 mean(0);
+      for (uint32_t i = 0; i < kCount; ++i) {
+        const NearField::Sample s = field.sample(x, sobol_pair(i, 0, 3), tolerance);
+        const double cosine =
+            static_cast<double>(-x.z) / glm::length(glm::dvec3(s.at, 0) - glm::dvec3(x)) / kCount;
+        mean += cosine * glm::dvec3(s.lux.r, s.lux.g, s.lux.b);
+      }
+      for (int c = 0; c < 3; ++c) {
+        const NearLamp lamp(channel_of(colored, c));
+        const double truth = tolerance > 0 ? lamp.approximate(x, kUp) : lamp.exact(x, kUp, 64);
+        EXPECT_NEAR(mean[c], truth, 0.01 * std::abs(truth)) << c << " " << x.z << " " << tolerance;
+      }
+    }
+  glm::dvec3 sent(0);
+  constexpr uint32_t kParticles = 1 << 16;
+  for (uint32_t i = 0; i < kParticles; ++i) {
+    const EmittedLight e = field.emit(sobol_pair(i, 0, 5), sobol_pair(i, 1, 5));
+    sent += glm::dvec3(e.flux.r, e.flux.g, e.flux.b) / double{kParticles};
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double truth = flux(channel_of(colored, c));
+    EXPECT_NEAR(sent[c], truth, 0.01 * truth) << c;
+  }
+  EXPECT_NEAR(static_cast<double>(luminance(field.flux())), flux(colored), 1e-4 * flux(colored));
+}
+
 // In between, the bound decides.
 TEST(NearField, ToleranceIsHonoured) {
   const auto field = uneven(NearBasis::bell);

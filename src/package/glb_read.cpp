@@ -268,10 +268,14 @@ class Reader {
       v.fail("has a spacing, distance or pixel that is not positive");
     out.first = pair("first"), out.corner = pair("corner");
     const std::string_view bytes = view(v.at("bufferView"));
-    if (bytes.size() != out.terms() * out.pixels() * sizeof(float))
+    const bool grey = v.number("channels", 1) != 3;
+    std::vector<float>& values = grey ? out.irradiance : out.color;
+    const std::size_t wanted = out.terms() * out.pixels() * (grey ? 1 : 3);
+    if (bytes.size() != wanted * sizeof(float))
       v.at("bufferView").fail("does not hold as many values as the light field has");
-    out.irradiance.resize(out.terms() * out.pixels());
-    std::memcpy(out.irradiance.data(), bytes.data(), bytes.size());
+    values.resize(wanted);
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (!grey) set_luminance(out);
     return out;
   }
 

@@ -103,6 +103,13 @@ Scene sample() {
   light.name = "near";
   light.shape = LuminaireLight{Id<Luminaire>(1), 0.03f};
   scene.lights.push_back(light);
+  for (int i = 0; i < 3; ++i)
+    for (const float v : field.irradiance) field.color.push_back(v * static_cast<float>(i + 1));
+  set_luminance(field);
+  scene.luminaires.push_back({"colored.exr", table, std::make_shared<LightField>(field)});
+  light.name = "colored";
+  light.shape = LuminaireLight{Id<Luminaire>(2)};
+  scene.lights.push_back(light);
   return scene;
 }
 
@@ -158,7 +165,7 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.instances[1].group_name, "b");
   EXPECT_EQ(b.instances[1].lightmap_scale, 0.5f);
   EXPECT_EQ(b.instances[2].mesh, a.instances[2].mesh);
-  ASSERT_EQ(b.lights.size(), 6u);
+  ASSERT_EQ(b.lights.size(), 7u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(b.lights[i].name, a.lights[i].name);
     EXPECT_EQ(b.lights[i].frame, a.lights[i].frame);
@@ -200,6 +207,11 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(after.spacing, before.spacing);
   EXPECT_EQ(after.distance, before.distance);
   EXPECT_EQ(after.pixel, before.pixel);
+  EXPECT_TRUE(after.is_grey());
+  ASSERT_EQ(b.luminaires.size(), 3u);
+  ASSERT_TRUE(b.luminaires[2].field);
+  EXPECT_EQ(b.luminaires[2].field->color, a.luminaires[2].field->color);
+  EXPECT_EQ(b.luminaires[2].field->irradiance, a.luminaires[2].field->irradiance);
   ASSERT_EQ(b.cameras.size(), 1u);
   EXPECT_EQ(b.cameras[0].name, "main");
   EXPECT_EQ(b.cameras[0].frame, a.cameras[0].frame);

@@ -240,7 +240,8 @@ class Writer {
   }
 
   Json field(const LightField& f) {
-    if (first_not_finite(f.irradiance)) refuse("a light field");
+    const std::vector<float>& values = f.is_grey() ? f.irradiance : f.color;
+    if (first_not_finite(values)) refuse("a light field");
     return {{"basis", name_of(f.basis)},
             {"columns", f.columns},
             {"rows", f.rows},
@@ -251,7 +252,8 @@ class Writer {
             {"height", f.height},
             {"corner", {f.corner.x, f.corner.y}},
             {"pixel", f.pixel},
-            {"bufferView", add_view(f.irradiance.data(), f.irradiance.size() * sizeof(float), 0)}};
+            {"channels", f.is_grey() ? 1 : 3},
+            {"bufferView", add_view(values.data(), values.size() * sizeof(float), 0)}};
   }
 
   void add(const Light& light) {

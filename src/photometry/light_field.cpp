@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/rgb.h"
 
 namespace sconce {
 
@@ -115,6 +116,21 @@ LightField LightFieldBuilder::finish() && {
   for (std::size_t i = 0; i < sums_.size(); ++i) field_.irradiance[i] = static_cast<float>(sums_[i] / area);
   field_.grain = kept_ > 0 ? squares_ / kept_ : 0;
   return std::move(field_);
+}
+
+LightField channel_of(const LightField& field, int channel) {
+  LightField out = field;
+  const auto size = static_cast<std::ptrdiff_t>(field.irradiance.size());
+  out.irradiance.assign(field.color.begin() + channel * size, field.color.begin() + (channel + 1) * size);
+  out.color.clear();
+  return out;
+}
+
+void set_luminance(LightField& field) {
+  const std::size_t size = field.color.size() / 3;
+  field.irradiance.resize(size);
+  for (std::size_t i = 0; i < size; ++i)
+    field.irradiance[i] = luminance(Rgb(field.color[i], field.color[size + i], field.color[2 * size + i]));
 }
 
 double flux(const LightField& field) {

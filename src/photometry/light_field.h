@@ -31,10 +31,12 @@ struct LightField {
   double pixel = 0;               ///< edge of a pixel, m
   double grain = 0;               ///< flux of one of the rays that it was made of, lm; 0 = not of rays
   std::vector<float> irradiance;  ///< [n][m][t][s], lux
+  std::vector<float> color;  ///< the same thrice, [red, green, blue], whose luminance that is; empty: grey
 
   std::size_t terms() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   glm::dvec2 center(int m, int n) const { return first + spacing * glm::dvec2(m, n); }
+  bool is_grey() const { return color.empty(); }
   std::span<const float> image(std::size_t term) const {
     return std::span(irradiance).subspan(term * pixels(), pixels());
   }
@@ -67,6 +69,11 @@ class LightFieldBuilder {
 
 /// Flux through the images: sum over terms and pixels of E x pixel area, lm.
 double flux(const LightField& field);
+
+/// Red, green or blue of a coloured light field as a grey one, lux of that channel.
+LightField channel_of(const LightField& field, int channel);
+/// The irradiance that belongs to the colours. @pre color has three times the values of all images
+void set_luminance(LightField& field);
 
 /// The lamp as lit from: box means of the images in constant time.
 class NearLamp {
@@ -137,7 +144,7 @@ class NearLamp {
 Photometry far_field(const NearLamp& lamp, double step);
 
 /// Four neighbouring terms in one by direction, moved to their middle: what is left to see of them from far
-/// away.
+/// away. Grey.
 LightField coarser(const NearLamp& lamp);
 
 }  // namespace sconce

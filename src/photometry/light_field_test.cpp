@@ -306,5 +306,50 @@ TEST(LightField, FileComesBack) {
   EXPECT_EQ(again.irradiance, field.irradiance);
 }
 
+// Floats as they are, halves to 1/2048, sRGBE to 1/127 of the largest of three (terms, or colours), zeros and
+// what had been coded once exactly; flux to what values do.
+TEST(LightField, EveryCodingComesBack) {
+  const auto file = std::filesystem::temp_directory_path() / "sconce-light-field-codings.exr";
+  for (const bool grey : {true, false}) {
+    LightField field = noise(NearBasis::bell);
+    for (std::size_t i = 0; i < field.irradiance.size(); i += 7) field.irradiance[i] = 0;
+    for (int c = 0; c < 3 && !grey; ++c)
+      for (const float v : field.irradiance) field.color.push_back(c == 1 ? 3 * v : c == 2 ? 0.1f - v : v);
+    if (!grey) set_luminance(field);
+    const std::vector<float>& values = grey ? field.irradiance : field.color;
+    const std::size_t terms = field.terms(), pixels = field.pixels();
+    for (const FieldCoding coding : {FieldCoding::full, FieldCoding::half, FieldCoding::srgbe}) {
+      write_light_field(file, field, coding);
+      const LightField again = read_light_field(file);
+      EXPECT_EQ(again.is_grey(), grey);
+      const std::vector<float>& back = grey ? again.irradiance : again.color;
+      ASSERT_EQ(back.size(), values.size());
+      if (coding == FieldCoding::full) {
+        EXPECT_EQ(back, values);
+        EXPECT_EQ(again.irradiance, field.irradiance);
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t plane = i / pixels, pixel = i % pixels;
+        float most = std::abs(values[i]);  // of those that share an exponent
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::size_t other = grey ? plane / 3 * 3 + k : plane % terms + k * terms;
+          if (other < values.size() / pixels) most = std::max(most, std::abs(values[other * pixels + pixel]));
+        }
+        const float allowed = coding == FieldCoding::srgbe ? most / 127 : std::abs(values[i]) / 2048;
+        ASSERT_NEAR(back[i], values[i], allowed) << name_of(coding) << " " << i;
+        if (values[i] == 0) {
+          ASSERT_EQ(back[i], 0);
+        }
+      }
+      EXPECT_NEAR(flux(again), flux(field), 2e-3 * std::abs(flux(field))) << name_of(coding);
+      write_light_field(file, again, coding);
+      EXPECT_EQ(read_light_field(file).irradiance, again.irradiance) << "once more changes nothing";
+    }
+  }
+  std::filesystem::remove(file);
+  EXPECT_EQ(coding_named("srgbe"), FieldCoding::srgbe);
+  EXPECT_EQ(coding_named("rgbe"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace sconce

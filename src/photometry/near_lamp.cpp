@@ -240,6 +240,7 @@ Photometry far_field(const NearLamp& lamp, double step) {
 LightField coarser(const NearLamp& lamp) {
   const LightField& field = lamp.field();
   LightField out = field;
+  out.color.clear();
   out.columns = (field.columns + 1) / 2;
   out.rows = (field.rows + 1) / 2;
   out.spacing = 2 * field.spacing;

@@ -10,8 +10,9 @@ namespace sconce {
 
 /// Eq. 14: all terms of the finest light field, lux at scale 1.
 /// @param tracer  a shadow ray for each term; null = no shadows
-inline double near_spots(const NearFieldLamp& lamp, const SurfacePoint& at, const Tracer* tracer) {
-  const NearLamp& spots = lamp.field->finest();
+inline double near_spots(const NearFieldLamp& lamp, const SurfacePoint& at, const Tracer* tracer,
+                         std::size_t channel = 0) {
+  const NearLamp& spots = lamp.field->channel(channel);
   const LightField& field = spots.field();
   const Vec3 x = (at.position - lamp.position) * lamp.to_world, n = at.shading_normal * lamp.to_world,
              start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);

@@ -66,6 +66,7 @@ void add(ContentHash& hash, const LightField& f) {
   hash.value(f.basis).value(f.columns).value(f.rows).value(f.spacing).value(f.first).value(f.distance);
   hash.value(f.width).value(f.height).value(f.corner).value(f.pixel);
   add(hash, f.irradiance);
+  add(hash, f.color);
 }
 
 void add_lamp(ContentHash& hash, const Scene& scene, const Light& light) {
