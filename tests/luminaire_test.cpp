@@ -196,6 +196,16 @@ TEST(LuminaireVerb, InfoCheckConvert) {
   EXPECT_NE(well.out.find("2H x 2H"), std::string::npos);
   EXPECT_EQ(run_sconce({"luminaire", "check", ldt, "--diagram", svg, "--quiet"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(svg));
+  const std::string png = (folder / "isolux.png").string();
+  EXPECT_EQ(run_sconce({"luminaire", "check", ldt, "--isolux", png, "--quiet"}).code, 0);
+  EXPECT_EQ(read_image(png).width, 1000);
+  EXPECT_EQ(
+      run_sconce({"luminaire", "check", ldt, ies, "--png", "--diagram", (folder / "all").string(), "--quiet"})
+          .code,
+      0);
+  EXPECT_TRUE(
+      std::filesystem::exists(folder / "all" / (std::filesystem::path(ldt).stem().string() + ".png")));
+  EXPECT_EQ(run_sconce({"luminaire", "check", ldt, "--diagram", (folder / "x.gif").string()}).code, 2);
   const auto ill =
       run_sconce({"luminaire", "check", (data / "ldt/eulumdat-ugr/input/sample_05.ldt").string()});
   EXPECT_EQ(ill.code, 3);

@@ -9,6 +9,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/sobol.h"
+#include "core/text.h"
+#include "image/io.h"
 #include "light/lamp.h"
 #include "luminaire.h"
 #include "photometry/diagram.h"
@@ -39,6 +41,12 @@ std::string text_of(const UgrTable& ugr) {
     table.add(std::move(cells));
   }
   return table.text();
+}
+
+constexpr int kDiagramScale = 2;  // pixels per unit of a diagram
+
+bool is_png(const std::filesystem::path& file) {
+  return lower(file.extension().string()) == ".png";
 }
 
 std::optional<UgrTable> ugr_of(const Photometry& p) {
@@ -77,7 +85,7 @@ int run_luminaire_check(int argc, const char* const* argv) {
   std::vector<std::string> files;
   std::string diagram, isolux;
   double height = 3;
-  bool ugr = false;
+  bool ugr = false, png = false;
   Options options("luminaire check",
                   "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
                   "glare. Exit code 3 where "
@@ -86,12 +94,17 @@ int run_luminaire_check(int argc, const char* const* argv) {
                    "sconce luminaire render {FILE} -o wall.png"});
   options.positionals("file", &files, "IES LM-63 or EULUMDAT files", true);
   options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
-  options.option("--diagram", &diagram, "write the polar diagram as SVG; with several files a folder");
+  options.option("--diagram", &diagram, "write the polar diagram, .svg or .png; with several files a folder");
   options.option("--isolux", &isolux,
-                 "write lines of equal illuminance on the floor as SVG; with several files a folder");
+                 "write lines of equal illuminance on the floor, .svg or .png; with several files a folder");
+  options.flag("--png", &png, "diagrams in folders as PNG rather than SVG");
   options.option("--height", &height, "isolux: metres from the lamp down to the floor");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (!(height > 0)) throw UsageError("--height", "is not positive", "metres > 0");
+  for (const auto& [name, target] : {std::pair("--diagram", &diagram), std::pair("--isolux", &isolux)})
+    if (files.size() == 1 && !target->empty() && !is_png(*target) &&
+        lower(std::filesystem::path(*target).extension().string()) != ".svg")
+      throw UsageError(name, "'" + *target + "' names no format", ".svg, .png");
   bool sick = false;
   Json report = Json::array();
   for (const std::string& target : {diagram, isolux})
@@ -102,13 +115,16 @@ int run_luminaire_check(int argc, const char* const* argv) {
     const double lumens = flux(p), rendered = rendered_flux(p);
     const std::optional<UgrTable> table = ugr_of(p);
     const std::string stem = std::filesystem::path(file).stem().string();
-    const auto draw = [&](const std::string& target, const std::string& svg) {
-      write_file(
-          files.size() > 1 ? std::filesystem::path(target) / (stem + ".svg") : std::filesystem::path(target),
-          svg);
+    const auto draw = [&](const std::filesystem::path& target, const Drawing& drawing) {
+      const bool folder = files.size() > 1;
+      const std::filesystem::path to = folder ? target / (stem + (png ? ".png" : ".svg")) : target;
+      if (folder ? png : is_png(to))
+        write_png(to, picture_of(drawing, kDiagramScale));
+      else
+        write_file(to, svg_of(drawing));
     };
-    if (!diagram.empty()) draw(diagram, polar_svg(p, stem));
-    if (!isolux.empty()) draw(isolux, isolux_svg(p, stem, height));
+    if (!diagram.empty()) draw(diagram, polar_diagram(p, stem));
+    if (!isolux.empty()) draw(isolux, isolux_diagram(p, stem, height));
     Json found = Json::array();
     for (const Finding& finding : findings) {
       sick |= finding.warning;

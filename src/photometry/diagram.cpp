@@ -25,69 +25,52 @@ double ring_step(double peak) {
 }
 
 /// The curve through C (to the right) and C + 180 (to the left).
-std::string curve(const Photometry& p, double c, double scale) {
-  std::string points;
+std::vector<glm::dvec2> curve(const Photometry& p, double c, double scale, const glm::dvec2& center) {
+  std::vector<glm::dvec2> points;
   for (int i = -360; i <= 360; ++i) {
     const double angle = i * 0.5, plane = std::fmod(angle < 0 ? c + 180 : c, 360);
     const double r = intensity_at(p, plane, std::abs(angle)) * scale;
-    points += fmt::format("{:.1f},{:.1f} ", kCentre + r * std::sin(angle * kDegree),
-                          kTitle + kCentre + r * std::cos(angle * kDegree));
+    points.push_back(center + r * glm::dvec2(std::sin(angle * kDegree), std::cos(angle * kDegree)));
   }
   return points;
 }
 
+constexpr Color8 kGrid{0xcc, 0xcc, 0xcc}, kText{0x55, 0x55, 0x55}, kC0{0xc0, 0x20, 0x20},
+    kC90{0x20, 0x40, 0xc0}, kBlack{};
+
 }  // namespace
 
-std::string escaped_xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-std::string polar_svg(const Photometry& given, const std::string& title) {
+Drawing polar_diagram(const Photometry& given, const std::string& title) {
+  using Anchor = Drawing::Label::Anchor;
   const Photometry p = as_type_c(given);
   const double peak = std::max(peak_of(p).candela, 1e-9), step = ring_step(peak);
   const int rings = static_cast<int>(std::ceil(peak / step - 1e-9));
-  const double scale = kRadius / (rings * step), y = kTitle + kCentre;
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-      "<text x=\"{2}\" y=\"20\" text-anchor=\"middle\" font-size=\"13\">{3}</text>\n<g stroke=\"#ccc\" "
-      "fill=\"none\">\n",
-      2 * kCentre, 2 * kCentre + kTitle + 20, kCentre, escaped_xml(title));
-  for (int ring = 1; ring <= rings; ++ring)
-    out += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:.1f}\"/>\n", kCentre, y, ring * step * scale);
+  const double scale = kRadius / (rings * step);
+  const glm::dvec2 center(kCentre, kTitle + kCentre);
+  Drawing out;
+  out.width = 2 * kCentre, out.height = 2 * kCentre + kTitle + 20;
+  out.labels.push_back({{kCentre, 20}, title, kBlack, Anchor::middle, 13});
+  for (int ring = 1; ring <= rings; ++ring) out.circle(center, ring * step * scale, kGrid);
   for (int angle = 0; angle < 180; angle += 30) {
-    const double dx = kRadius * std::sin(angle * kDegree), dy = kRadius * std::cos(angle * kDegree);
-    out += fmt::format("<path d=\"M{:.1f},{:.1f}L{:.1f},{:.1f}\"/>\n", kCentre - dx, y - dy, kCentre + dx,
-                       y + dy);
+    const glm::dvec2 to = kRadius * glm::dvec2(std::sin(angle * kDegree), std::cos(angle * kDegree));
+    out.lines.push_back({{{center - to, center + to}}, kGrid});
   }
-  out += "</g>\n<g fill=\"#555\" text-anchor=\"middle\">\n";
   for (int angle = 0; angle <= 180; angle += 30)
     for (const int side : {-1, 1}) {
       if (side < 0 && angle % 180 == 0) continue;
-      out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}°</text>\n",
-                         kCentre + side * (kRadius + 18) * std::sin(angle * kDegree),
-                         y + 4 + (kRadius + 14) * std::cos(angle * kDegree), angle);
+      out.labels.push_back({center + glm::dvec2(side * (kRadius + 18) * std::sin(angle * kDegree),
+                                                4 + (kRadius + 14) * std::cos(angle * kDegree)),
+                            fmt::format("{}°", angle), kText, Anchor::middle});
     }
   for (int ring = 1; ring <= rings; ++ring)
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"start\">{:g}</text>\n", kCentre + 3,
-                       y + ring * step * scale - 2, ring * step);
-  out += "</g>\n<g fill=\"none\" stroke-width=\"2\">\n";
-  out += fmt::format("<polyline stroke=\"#c02020\" points=\"{}\"/>\n", curve(p, 0, scale));
-  out += fmt::format("<polyline stroke=\"#2040c0\" stroke-dasharray=\"6 4\" points=\"{}\"/>\n",
-                     curve(p, 90, scale));
-  out += fmt::format(
-      "</g>\n<text x=\"10\" y=\"{0}\"><tspan fill=\"#c02020\">C180 — C0</tspan>  <tspan fill=\"#2040c0\">"
-      "C270 - - C90</tspan></text>\n<text x=\"{1}\" y=\"{0}\" text-anchor=\"end\">cd</text>\n</svg>\n",
-      2 * kCentre + kTitle + 8, 2 * kCentre - 10);
+    out.labels.push_back(
+        {center + glm::dvec2(3, ring * step * scale - 2), fmt::format("{:g}", ring * step), kText});
+  out.lines.push_back({{curve(p, 0, scale, center)}, kC0, 2});
+  out.lines.push_back({{curve(p, 90, scale, center)}, kC90, 2, 6});
+  const double foot = 2 * kCentre + kTitle + 8;
+  out.labels.push_back({{10, foot}, "C180 - C0", kC0});
+  out.labels.push_back({{90, foot}, "C270 - C90", kC90});
+  out.labels.push_back({{2 * kCentre - 10, foot}, "cd", kBlack, Anchor::end});
   return out;
 }
 

@@ -66,7 +66,7 @@ TEST(Doctor, KnowsWhereATableIsTooCoarse) {
 }
 
 TEST(Diagram, IsWellFormed) {
-  const std::string svg = polar_svg(uniform(), "a < b & c");
+  const std::string svg = svg_of(polar_diagram(uniform(), "a < b & c"));
   EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -75,19 +75,48 @@ TEST(Diagram, IsWellFormed) {
 // 100 cd all around, 1 m above: E = 100 cos3, so 50 lx lie where cos3 = 1/2, at sqrt(2^(2/3) - 1) m; a metre
 // is 100 units.
 TEST(Diagram, IsoluxLinesLieWhereTheyShould) {
-  const std::string svg = isolux_svg(uniform(), "lamp", 1);
-  EXPECT_NE(svg.find("50 lx</text>"), std::string::npos);
-  const std::size_t path = svg.find("<path d=\"M") + 9;
-  const std::string text = svg.substr(path, svg.find('"', path) - path);
+  const Drawing drawing = isolux_diagram(uniform(), "lamp", 1);
+  EXPECT_NE(svg_of(drawing).find("50 lx</text>"), std::string::npos);
   const double radius = 100 * std::sqrt(std::pow(2, 2.0 / 3) - 1);
   int points = 0;
-  for (std::size_t at = text.find_first_of("ML"); at != std::string::npos;
-       at = text.find_first_of("ML", at + 1), ++points) {
-    double x = 0, y = 0;
-    ASSERT_EQ(std::sscanf(text.c_str() + at + 1, "%lf,%lf", &x, &y), 2);
-    EXPECT_NEAR(std::hypot(x - 250, y - 280), radius, 0.3);
-  }
+  for (const auto& stroke : drawing.lines.at(1).strokes)
+    for (const glm::dvec2& p : stroke) {
+      EXPECT_NEAR(std::hypot(p.x - 250, p.y - 280), radius, 0.3);
+      ++points;
+    }
   EXPECT_GT(points, 100);
+}
+
+// The same drawing as pixels: what lies on the line of 50 lx has its colour, what lies beside it is white;
+// the dashed curve of a lamp that is alike all around lies on the solid one.
+TEST(Diagram, PixelsShowWhatTheDrawingHas) {
+  constexpr int kScale = 2;
+  const Drawing isolux = isolux_diagram(uniform(), "lamp", 1);
+  const Image8 picture = picture_of(isolux, kScale);
+  EXPECT_EQ(picture.width, 1000);
+  EXPECT_EQ(picture.height, 1100);
+  const auto at = [&](const Image8& image, double x, double y) {
+    const auto i = 3 * static_cast<std::size_t>(static_cast<int>(y * kScale) * image.width +
+                                                static_cast<int>(x * kScale));
+    return Color8{image.data[i], image.data[i + 1], image.data[i + 2]};
+  };
+  const double radius = 100 * std::sqrt(std::pow(2, 2.0 / 3) - 1), aslant = std::sqrt(0.5);
+  const Color8 line = isolux.lines.at(1).color, white{255, 255, 255};
+  EXPECT_EQ(at(picture, 250 + aslant * radius, 280 + aslant * radius), line);
+  EXPECT_EQ(at(picture, 250 + aslant * (radius - 4), 280 + aslant * (radius - 4)), white);
+  // 100 cd in rings of 20: the curve is the outermost circle, of 200 units.
+  const Drawing polar = polar_diagram(uniform(), "lamp");
+  const Image8 curves = picture_of(polar, kScale);
+  int red = 0, blue = 0, other = 0;
+  for (int i = 0; i < 720; ++i) {
+    const double angle = i * M_PI / 360;
+    const Color8 c = at(curves, 250 + 200 * std::sin(angle), 280 + 200 * std::cos(angle));
+    red += c == Color8{0xc0, 0x20, 0x20}, blue += c == Color8{0x20, 0x40, 0xc0};
+    other += c == white;
+  }
+  EXPECT_NEAR(blue, 0.7 * 720, 0.1 * 720) << "dashes of 6, rounded by 2, in 10";
+  EXPECT_GT(red, 80);
+  EXPECT_EQ(other, 0);
 }
 
 }  // namespace

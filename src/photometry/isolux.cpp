@@ -31,8 +31,8 @@ std::vector<double> floor_lux(const Photometry& p, double height) {
 }
 
 /// Line pieces of one level: marching squares, a saddle joined by its mean.
-std::string contour(const std::vector<double>& lux, double level) {
-  std::string path;
+std::vector<std::vector<glm::dvec2>> contour(const std::vector<double>& lux, double level) {
+  std::vector<std::vector<glm::dvec2>> out;
   const double step = kSize / kCells;
   for (int row = 0; row < kCells; ++row)
     for (int column = 0; column < kCells; ++column) {
@@ -50,46 +50,56 @@ std::string contour(const std::vector<double>& lux, double level) {
       }
       if (cuts.size() == 4 && (v[0] + v[1] + v[2] + v[3] < 4 * level) == (v[0] < level))
         std::rotate(cuts.begin(), cuts.begin() + 1, cuts.end());
-      for (std::size_t i = 0; i + 1 < cuts.size(); i += 2)
-        path +=
-            fmt::format("M{:.1f},{:.1f}L{:.1f},{:.1f}", cuts[i].x, cuts[i].y, cuts[i + 1].x, cuts[i + 1].y);
+      for (std::size_t i = 0; i + 1 < cuts.size(); i += 2) out.push_back({cuts[i], cuts[i + 1]});
     }
-  return path;
+  return out;
+}
+
+/// From red (the brightest) to blue.
+Color8 color_of(int line) {
+  Color8 out;
+  for (int c = 0; c < 3; ++c) {  // HSL at 70 % and 45 %
+    const double hue = std::fmod((c == 0 ? 0 : c == 1 ? 8 : 4) + 240.0 * line / 8 / 30, 12);
+    const double v = 0.45 - 0.315 * std::max(-1.0, std::min({hue - 3, 9 - hue, 1.0}));
+    out[static_cast<std::size_t>(c)] = static_cast<unsigned char>(std::lround(255 * v));
+  }
+  return out;
 }
 
 }  // namespace
 
-std::string isolux_svg(const Photometry& given, const std::string& title, double height) {
+Drawing isolux_diagram(const Photometry& given, const std::string& title, double height) {
+  using Anchor = Drawing::Label::Anchor;
+  constexpr Color8 kBlack{}, kGrid{0xcc, 0xcc, 0xcc}, kMark{0x55, 0x55, 0x55};
   const std::vector<double> lux = floor_lux(as_type_c(given), height);
   const double most = *std::max_element(lux.begin(), lux.end());
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-      "<text x=\"{2}\" y=\"20\" text-anchor=\"middle\" font-size=\"13\">{3}</text>\n"
-      "<rect x=\"{4}\" y=\"{5}\" width=\"{6}\" height=\"{6}\" fill=\"none\" stroke=\"#ccc\"/>\n",
-      kSize + 2 * kMargin, kSize + 2 * kMargin + kTitle + 20, kMargin + kSize / 2, escaped_xml(title),
-      kMargin, kTitle + kMargin, kSize);
+  const double top = kTitle + kMargin;
+  const glm::dvec2 middle(kMargin + kSize / 2, top + kSize / 2);
+  Drawing out;
+  out.width = kSize + 2 * kMargin, out.height = kSize + 2 * kMargin + kTitle + 20;
+  out.labels.push_back({{middle.x, 20}, title, kBlack, Anchor::middle, 13});
+  const auto corner = [&](int x, int y) { return glm::dvec2(kMargin + x * kSize, top + y * kSize); };
+  out.lines.push_back({{{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), corner(0, 0)}}, kGrid});
   // 1, 2, 5 times powers of ten below the brightest point, three decades of them at most.
   int drawn = 0;
   for (double power = std::pow(10, std::floor(std::log10(std::max(most, 1e-9)))); drawn < 9; power /= 10)
     for (const double m : {5.0, 2.0, 1.0}) {
       const double level = m * power;
       if (!(level < most) || drawn == 9) continue;
-      const double hue = 240.0 * drawn / 8;
-      out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"hsl({:.0f},70%,45%)\"/>\n",
-                         contour(lux, level), hue);
-      out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" fill=\"hsl({:.0f},70%,45%)\">{:g} lx</text>\n",
-                         kMargin + kSize + 6, kTitle + kMargin + 12 + 15.0 * drawn, hue, level);
+      const Color8 color = color_of(drawn);
+      out.lines.push_back({contour(lux, level), color});
+      out.labels.push_back(
+          {{kMargin + kSize + 6, top + 12 + 15.0 * drawn}, fmt::format("{:g} lx", level), color});
       ++drawn;
     }
-  const double middle = kMargin + kSize / 2;
-  out += fmt::format(
-      "<path d=\"M{0},{1}v12M{2},{3}h12\" stroke=\"#555\"/>\n<text x=\"{4}\" y=\"{3}\" dy=\"4\">C0</text>\n"
-      "<text x=\"{0}\" y=\"{5}\" text-anchor=\"middle\">C90</text>\n"
-      "<text x=\"{6}\" y=\"{7}\">floor {8:g} m below, {9:g} x {9:g} m, {10:.4g} lx at most</text>\n</svg>\n",
-      middle, kTitle + kMargin + kSize / 2 - 6, middle - 6, kTitle + kMargin + kSize / 2,
-      kMargin + kSize - 20, kTitle + kMargin + 14, kMargin, kTitle + 2 * kMargin + kSize, height,
-      kHeights * height, most);
+  for (const glm::dvec2& arm : {glm::dvec2(6, 0), glm::dvec2(0, 6)})
+    out.lines.push_back({{{middle - arm, middle + arm}}, kMark});
+  out.labels.push_back({{kMargin + kSize - 20, middle.y + 4}, "C0", kBlack});
+  out.labels.push_back({{middle.x, top + 14}, "C90", kBlack, Anchor::middle});
+  out.labels.push_back({{kMargin, kTitle + 2 * kMargin + kSize},
+                        fmt::format("floor {0:g} m below, {1:g} x {1:g} m, {2:.4g} lx at most", height,
+                                    kHeights * height, most),
+                        kBlack});
   return out;
 }
 

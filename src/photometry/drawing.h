@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines and labels of a diagram, as SVG or as pixels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "image/draw.h"
+
+namespace sconce {
+
+struct Drawing {
+  struct Line {
+    std::vector<std::vector<glm::dvec2>> strokes;
+    Color8 color{};
+    double width = 1;
+    double dash = 0;  ///< length of dashes, with gaps of two thirds; 0 = solid
+  };
+  struct Label {
+    glm::dvec2 at{0};  ///< on the base line
+    std::string text;
+    Color8 color{};
+    enum class Anchor { start, middle, end } anchor = Anchor::start;
+    double size = 11;
+  };
+
+  double width = 0, height = 0;  ///< y runs down
+  std::vector<Line> lines;
+  std::vector<Label> labels;
+
+  void circle(const glm::dvec2& center, double radius, const Color8& color);
+};
+
+std::string svg_of(const Drawing& drawing);
+/// Smooth lines on white. Of a label's letters the font has capitals, figures and a few signs.
+/// @param scale  pixels per unit
+Image8 picture_of(const Drawing& drawing, int scale);
+
+}  // namespace sconce
