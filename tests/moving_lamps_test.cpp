@@ -59,6 +59,38 @@ TEST_F(Relight, AGroupByTransferIsItsLayer) {
   EXPECT_NEAR(mean("moved.exr") / mean("baked.exr"), 1, 0.02);
 }
 
+// 5 and 34: two groups together are their sum, to float rounding. And each is its layer as far as both are
+// free of noise: the bake keeps light finer (on cells, and by paths where things are close), the file has
+// codes of 8 bits. To 1e-5 the two are one where cloud, rays and coefficients are the same: Bounces, in
+// gather_test.
+TEST_F(Relight, SuperpositionOfGroups) {
+  write_file(folder / "room.glb", write_glb(test::two_lamp_room(), "test"));
+  expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "1024"}));
+  expect_done(run({"transfer", package, "--gather", "4096", "--rays", "1024", "--cluster", "64"}));
+  const auto relit = [&](const std::string& output, const Names& groups) {
+    Names words = picture("relight", output, {"--others", "off", "--device", "cpu"});
+    for (const std::string& group : groups) {
+      words.push_back(group + "=on");
+      words.push_back("--light");
+      words.push_back("group,name=" + group);
+    }
+    expect_done(run(words));
+    return read_exr(file(output));
+  };
+  const Image left = relit("left.exr", {"left"}), right = relit("right.exr", {"right"}),
+              both = relit("both.exr", {"left", "right"});
+  for (std::size_t i = 0; i < both.data.size(); ++i)
+    ASSERT_NEAR(both.data[i], left.data[i] + right.data[i], 1e-5f * both.data[i]) << i;
+  for (const std::string group : {"left", "right"}) {
+    const std::string baked = "baked " + group + ".exr";
+    expect_done(run(picture("render", baked, {group + "=on", "--others", "off", "--device", "cpu"})));
+    const test::Outcome same =
+        run({"diff", file(group + ".exr"), file(baked), "--metric", "rmse", "--fail-above", "1.5%"});
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_NEAR(mean(group + ".exr") / mean(baked), 1, 0.004);
+  }
+}
+
 // The same file and program with the chapter's own operator, whose bounces are blurred photons.
 TEST_F(Relight, AGroupByTheChaptersMethod) {
   make_room();

@@ -12,41 +12,68 @@ namespace {
 
 constexpr std::size_t kRank = ClusterRows::kRank, kLanes = ClusterRows::kLanes;
 
+using Gram = Eigen::Matrix<double, kRank, kRank>;
+using Column = Eigen::Matrix<double, kRank, 1>;
+
+double largest_eigenvalue(const Gram& gram) {
+  return Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues()(kRank - 1);
+}
+
 /// Squared spectral norm of a cluster's weights: the most that its rows make of its basis rows' answers.
 double largest_square(const ClusterRows& rows, std::size_t cluster) {
   if (rows.plain()) return 1;
-  Eigen::Matrix<double, kRank, kRank> gram = Eigen::Matrix<double, kRank, kRank>::Zero();
+  Gram gram = Gram::Zero();
   const std::size_t end = std::min<std::size_t>(rows.rows, rows.cluster * (cluster + 1));
   for (std::size_t row = rows.cluster * cluster; row < end; ++row) {
     const std::size_t lane = row % kLanes;
-    Eigen::Matrix<double, kRank, 1> w;
+    Column w;
     for (std::size_t j = 0; j < kRank; ++j)
       w(static_cast<Eigen::Index>(j)) =
           static_cast<double>(rows.scales[row]) * rows.weights[(row - lane) * kRank + j * kLanes + lane];
     gram += w * w.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kRank, kRank>>(gram).eigenvalues()(kRank - 1);
+  return largest_eigenvalue(gram);
 }
 
-float size_of(const Rgbx& l) {
-  return std::sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+/// What coefficient k of a block, counted over all blocks, is to its basis rows.
+Column column(const WaveletRows& basis, std::size_t block, uint32_t k) {
+  Column out;
+  for (std::size_t r = 0; r < kRank; ++r)
+    out(static_cast<Eigen::Index>(r)) =
+        static_cast<double>(dequantise(basis.codes[kRank * k + r], basis.scales[kRank * block + r]));
+  return out;
+}
+
+/// The same norm of a block's columns, each brought to length 1: 1 were they at right angles, their number
+/// were they alike.
+double largest_square_of_units(const WaveletRows& basis, std::size_t block) {
+  Gram gram = Gram::Zero();
+  for (uint32_t k = basis.first[block]; k < basis.first[block + 1]; ++k) {
+    const Column c = column(basis, block, k);
+    if (const double square = c.squaredNorm(); square > 0) gram += c * c.transpose() / square;
+  }
+  return largest_eigenvalue(gram);
+}
+
+float square_of(const Rgbx& l) {
+  return l[0] * l[0] + l[1] * l[1] + l[2] * l[2];
 }
 
 }  // namespace
 
 Culling::Culling(const ClusterRows& rows) {
   const WaveletRows& basis = rows.basis;
-  std::vector<double> most(basis.blocks()), squares(basis.columns, 0.0);
-  parallel_for(most.size(), 16, [&](std::size_t c) { most[c] = largest_square(rows, c); });
+  std::vector<double> most(basis.blocks()), alike(basis.blocks());
+  std::vector<double> squares(basis.columns, 0.0), together(basis.columns, 0.0);
+  parallel_for(most.size(), 16, [&](std::size_t c) {
+    most[c] = largest_square(rows, c);
+    alike[c] = largest_square_of_units(basis, c);
+  });
   for (std::size_t block = 0; block < basis.blocks(); ++block) {
-    const float* scales = basis.scales.data() + kRank * block;
     for (uint32_t k = basis.first[block]; k < basis.first[block + 1]; ++k) {
-      double sum = 0;
-      for (std::size_t r = 0; r < kRank; ++r) {
-        const auto value = static_cast<double>(dequantise(basis.codes[kRank * k + r], scales[r]));
-        sum += value * value;
-      }
-      squares[basis.indices[k]] += most[block] * sum;
+      const double square = most[block] * column(basis, block, k).squaredNorm();
+      squares[basis.indices[k]] += square;
+      together[basis.indices[k]] += alike[block] * square;
     }
     for (std::size_t r = 0; r < kRank; ++r) {
       const auto mean = static_cast<double>(basis.means[kRank * block + r]);
@@ -54,20 +81,24 @@ Culling::Culling(const ClusterRows& rows) {
     }
   }
   for (const double s : squares) norms_.push_back(static_cast<float>(std::sqrt(s)));
+  squares_.assign(together.begin(), together.end());
 }
 
 Culling::Report Culling::apply(float share, std::span<Rgbx> light) const {
   Report report;
-  const float least = share * norms_[0] * size_of(light[0]);
+  double squares = 0;
+  const float least = share * norms_[0] * std::sqrt(square_of(light[0]));
   for (std::size_t c = 1; c < light.size(); ++c) {
     if (!(norms_[c] > 0)) continue;
     ++report.of;
-    const float size = norms_[c] * size_of(light[c]);
+    const float size = norms_[c] * std::sqrt(square_of(light[c]));
     if (!(size < least)) continue;
     report.bound += static_cast<double>(size);
+    squares += static_cast<double>(squares_[c] * square_of(light[c]));
     ++report.culled;
     light[c] = {};
   }
+  report.bound = std::min(report.bound, std::sqrt(squares));
   return report;
 }
 

@@ -15,8 +15,9 @@ class Culling {
   struct Report {
     std::size_t culled = 0;  ///< coefficients of those that any row has
     std::size_t of = 0;
-    /// Largest possible error of the product, as the root of the sum of squares over all rows and channels:
-    /// columns share rows, so their norms add.
+    /// Largest possible error of the product, as the root of the sum of squares over all rows and channels.
+    /// Columns share rows, so that norms add, or squares times what a cluster makes of unit columns at most:
+    /// the lesser.
     double bound = 0;
   };
   /// Sets to 0 the coefficients that change the rows less than `share` of what the mean does.
@@ -26,7 +27,7 @@ class Culling {
   std::span<const float> norms() const { return norms_; }
 
  private:
-  std::vector<float> norms_;
+  std::vector<float> norms_, squares_;
 };
 
 }  // namespace sconce

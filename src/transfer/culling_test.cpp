@@ -91,6 +91,29 @@ TEST(Culling, KeepsItsBound) {
   }
 }
 
+// Columns at right angles: the squares of what they do add, and the bound is the error.
+TEST(Culling, OfColumnsAtRightAnglesIsTheBound) {
+  WaveletRowsBuilder builder(16, kSlots, 17, std::vector<float>(kSlots, 1.0f));
+  std::vector<Sixteen> values(kSlots, Sixteen{});
+  std::vector<uint32_t> chosen;
+  for (std::size_t row = 0; row < 16; ++row) {
+    const auto k = static_cast<uint32_t>(3 + 60 * row);
+    values[0][row] = 100;
+    values[k][row] = 1 + static_cast<float>(row);
+    chosen.push_back(k);
+  }
+  builder.set_block(0, chosen, values);
+  const auto made = builder.finish();
+  const ClusterRows rows{16, 16, made.rows, {}, {}};
+  const std::vector<Rgbx> whole = spot(2);
+  std::vector<Rgbx> left = whole;
+  const Culling::Report report = Culling(rows).apply(1, left);
+  EXPECT_EQ(report.culled, 16u);
+  const double error = difference(product(rows, whole), product(rows, left));
+  EXPECT_GT(error, 0);
+  EXPECT_NEAR(report.bound, error, 1e-4 * error);
+}
+
 TEST(Culling, OfNothingIsTheSameBits) {
   const Operator op = made_up(1000);
   const Culling culling(op.gather);
