@@ -9,6 +9,7 @@
 #include "image/io.h"
 #include "image/ldr.h"
 #include "image/primaries.h"
+#include "image/webp.h"
 
 namespace fs = std::filesystem;
 
@@ -31,6 +32,16 @@ TEST(Png, ComesBackForEveryChannelCount) {
     EXPECT_EQ(back.data, image.data);
   }
   EXPECT_EQ(decode_image8(encode_png(pattern(3, 3, 1)), "test", 4).channels, 4);
+}
+
+TEST(Webp, KeepsEveryByte) {
+  for (const int channels : {3, 4}) {  // opacities of 0 are among them
+    const Image8 image = pattern(13, 7, channels);
+    EXPECT_EQ(decode_webp(encode_webp(image), "test").data, image.data) << channels;
+  }
+  const std::vector<unsigned char> rgba{7, 7, 7, 0, 200, 200, 200, 9};
+  EXPECT_EQ(decode_webp(encode_webp({2, 1, 2, {7, 0, 200, 9}}), "test").data, rgba);
+  EXPECT_TRUE(encode_webp({16384, 1, 1, std::vector<unsigned char>(16384)}).empty());
 }
 
 TEST(Png, WrongSizesAreErrors) {

@@ -6,6 +6,7 @@
 
 #include "gpu/surface_vertices.h"
 #include "image/io.h"
+#include "image/webp.h"
 #include "web/parts.h"
 
 namespace sconce::web {
@@ -51,6 +52,16 @@ class VertexPool {
   Streams& out_;
   std::unordered_map<std::string, uint32_t> seen_;
 };
+
+/// As it was stored, or without loss as WebP, which often takes half of a PNG's bytes. @return and its ending
+std::pair<std::vector<unsigned char>, std::string> picture_file(const Texture& texture) {
+  if (texture.mime == "image/webp" && !texture.file.empty()) return {texture.file, "webp"};
+  if (texture.mime == "image/jpeg" && !texture.file.empty()) return {texture.file, "jpg"};
+  const std::vector<unsigned char> png = texture.file.empty() ? encode_png(texture.pixels) : texture.file;
+  const std::vector<unsigned char> webp = encode_webp(texture.pixels);
+  if (!webp.empty() && webp.size() < png.size()) return {webp, "webp"};
+  return {png, "png"};
+}
 
 }  // namespace
 
@@ -116,11 +127,7 @@ Json write_textures(SiteFiles& files, const Scene& scene) {
     const Texture& texture = scene.textures[i];
     Json entry = Json::object();
     if (used[i] && !texture.pixels.data.empty()) {
-      const std::vector<unsigned char> file =
-          texture.file.empty() ? encode_png(texture.pixels) : texture.file;
-      const std::string extension = texture.file.empty() || texture.mime == "image/png" ? "png"
-                                    : texture.mime == "image/webp"                      ? "webp"
-                                                                                        : "jpg";
+      const auto [file, extension] = picture_file(texture);
       entry = files.write("texture-" + std::to_string(i) + "." + extension,
                           [&] { return std::string(file.begin(), file.end()); });
       entry["wrap"] = {kWrap[static_cast<std::size_t>(texture.wrap_u)],

@@ -132,7 +132,7 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
   out["surface"] = kSurface;
   out["tones"] = tones_json();
   out["kelvins"] = kelvins_json();
-  write_file(folder / kSiteFile, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / kSiteFile, out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   return report;
 }
 
