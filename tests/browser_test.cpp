@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bumpy_room.h"
 #include "core/test_data.h"
 #include "image/io.h"
 #include "package/test_package.h"
 #include "process.h"
-#include "small_scenes.h"
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -80,22 +80,25 @@ class Browser : public testing::Test {
     const std::string bytes = read_file(file);
     return decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file);
   }
-  static void expect_alike(const std::string& a_file, const std::string& b_file) {
-    const Image8 a = codes(a_file), b = codes(b_file);
-    ASSERT_EQ(a.width, b.width);
-    ASSERT_EQ(a.height, b.height);
-    double difference = 0, light = 0;
+  /// Per channel, in codes.
+  static double mean_difference(const Image8& a, const Image8& b) {
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    double difference = 0;
     const auto pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
     for (std::size_t i = 0; i < pixels; ++i)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int code = a.data[i * static_cast<std::size_t>(a.channels) + c];
-        difference += std::abs(code - int{b.data[i * static_cast<std::size_t>(b.channels) + c]});
-        light += code;
-      }
-    EXPECT_LE(difference / static_cast<double>(3 * pixels), 2) << "mean, in codes";
-    EXPECT_GT(light / static_cast<double>(3 * pixels), 16) << "too dark to compare";
-    RecordProperty(("mean_codes_" + fs::path(a_file).stem().string()).c_str(),
-                   std::to_string(difference / static_cast<double>(3 * pixels)));
+      for (std::size_t c = 0; c < 3; ++c)
+        difference += std::abs(int{a.data[i * static_cast<std::size_t>(a.channels) + c]} -
+                               int{b.data[i * static_cast<std::size_t>(b.channels) + c]});
+    return difference / static_cast<double>(3 * pixels);
+  }
+  void expect_alike(const std::string& a_file, const std::string& b_file) const {
+    const Image8 a = codes(a_file);
+    const double difference = mean_difference(a, codes(b_file));
+    EXPECT_LE(difference, 2) << "mean, in codes";
+    EXPECT_GT(mean_difference(a, {a.width, a.height, 3, std::vector<unsigned char>(a.data.size())}), 16)
+        << "too dark to compare";
+    RecordProperty(("mean_codes_" + fs::path(a_file).stem().string()).c_str(), std::to_string(difference));
   }
   TemporaryFolder folder_;
 };
@@ -158,6 +161,36 @@ TEST_F(Browser, PagesManyLayersAndLuminances) {
     }
     compare(cases);
   }
+}
+
+// Directional layers show normal maps in every tier, and follow their faders.
+TEST_F(Browser, NormalMaps) {
+  const std::string scene = folder_.write("bumpy.glb", write_glb(test::bumpy_room(), "test"));
+  const std::vector<std::string> words{"--atlas", "256", "--samples", "16", "--bounces", "1", "--basis"};
+  const auto bake_by = [&](const char* basis) {
+    std::vector<std::string> all = words;
+    all.push_back(basis);
+    bake(scene, all);
+  };
+  bake_by("flat");
+  run({"render", path("x.sconce"), "--device", "cpu", "--size", "800x450", "-o", path("flat.png"),
+       "--quiet"});
+  bake_by("sh1");
+  run({"export", path("x.sconce"), "--web", path("site"), "--tiers", "full,half,unfiltered,byte", "--quiet"});
+  std::vector<Case> cases;
+  for (const char* tier : {"full", "half", "unfiltered", "byte"})
+    cases.push_back({std::string("tier=") + tier, Json::array(), {}});
+  cases.push_back({"tier=half",
+                   {press("left brightness, in stops", "ArrowRight", 10), {"click", "right on"}},
+                   {"left=+1ev", "right=off"}});
+  compare(cases);
+  EXPECT_GT(mean_difference(codes(path("web0.png")), codes(path("flat.png"))), 4);
+  const auto signless =
+      test::run_sconce({"export", path("x.sconce"), "--web", path("no"), "--encoding", "exp8", "--quiet"});
+  EXPECT_EQ(signless.code, 2);
+  EXPECT_NE(signless.err.find("exp8 cannot hold the signed basis sh1"), std::string::npos) << signless.err;
+  run({"export", path("x.sconce"), "--web", path("site"), "--encoding", "srgbe8", "--quiet"});
+  compare({{"tier=half", Json::array(), {}}});
 }
 
 // A sky is seen, and follows its fader.

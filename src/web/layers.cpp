@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "core/error.h"
 #include "encode/half.h"
 #include "mix/tier_layers.h"
 #include "web/parts.h"
@@ -11,13 +13,29 @@ namespace sconce::web {
 
 namespace {
 
-EncodedLayers layers_of(const Package& package, const std::optional<EncodingChoice>& encoding) {
-  if (!encoding) return read_layers(package);
+/// @param coefficients  of the basis
+EncodedLayers layers_of(const Package& package, std::size_t coefficients,
+                        const std::optional<EncodingChoice>& encoding) {
+  if (!encoding) return read_layers(package, coefficients);
   const Manifest& m = package.manifest();
+  if (coefficients > 1 && (encoding->luminance || !encoding->encoding->is_signed))
+    throw UsageError(
+        "--encoding",
+        encoding->name() + " cannot hold the signed basis " + std::string(basis_row(m.basis).name),
+        "f32, f16, srgbe8");
   std::vector<Rgb> colors;
   for (const GroupInfo& group : m.groups) colors.push_back(group.color);
-  return encode_layers(std::vector<EncodingChoice>(m.groups.size(), *encoding), m.pages, colors,
-                       [&](std::size_t g, int page) { return package.layer(g, page); });
+  EncodedLayers layers;
+  for (std::size_t c = 0; c < coefficients; ++c) {
+    EncodedLayers some =
+        encode_layers(std::vector<EncodingChoice>(m.groups.size(), *encoding), m.pages, colors,
+                      [&](std::size_t g, int page) { return package.layer(g, page, c); });
+    for (LayerTexture& texture : some.textures) texture.coefficient = c;
+    std::move(some.textures.begin(), some.textures.end(), std::back_inserter(layers.textures));
+    std::move(some.images.begin(), some.images.end(), std::back_inserter(layers.images));
+    layers.colors = some.colors;
+  }
+  return layers;
 }
 
 ShaderSpec spec_of(const EncodedLayers& layers, const ShaderTier& tier) {
@@ -55,10 +73,10 @@ Json needs_of(const ComposedShader& shader) {
 
 }  // namespace
 
-Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier,
+Json write_tier(SiteFiles& files, const Package& package, std::size_t coefficients, const ShaderTier& tier,
                 const std::optional<EncodingChoice>& encoding) {
   const std::string name(tier.name);
-  const EncodedLayers layers = for_tier(layers_of(package, encoding), tier);
+  const EncodedLayers layers = for_tier(layers_of(package, coefficients, encoding), tier);
   const ComposedShader shader = compose(spec_of(layers, tier));
   Json out = {{"name", name}, {"doc", tier.doc}, {"needs", needs_of(shader)}};
   out["shader"] = files.write(name + ".glsl", [&] { return shader.text; })["file"];
@@ -66,11 +84,10 @@ Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier
   std::size_t bytes = 0;
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
     const EncodedImage& first = layers.images[t].front();
-    Json texture = {{"encoding", layers.textures[t].encoding.name()},
-                    {"type", type_name(first.encoding->type)},
-                    {"channels", first.encoding->channels_of(first.channels)},
-                    {"planes", first.encoding->planes},
-                    {"groups", layers.textures[t].groups}};
+    Json texture = {
+        {"encoding", layers.textures[t].encoding.name()},          {"type", type_name(first.encoding->type)},
+        {"channels", first.encoding->channels_of(first.channels)}, {"planes", first.encoding->planes},
+        {"coefficient", layers.textures[t].coefficient},           {"groups", layers.textures[t].groups}};
     for (int page = 0; page < layers.pages(); ++page) {
       const EncodedImage& image = layers.images[t][static_cast<std::size_t>(page)];
       texture["pages"].push_back(

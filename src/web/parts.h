@@ -42,12 +42,14 @@ class SiteFiles {
   std::size_t bytes_ = 0;
 };
 
-Json write_geometry(SiteFiles& files, const ShownScene& shown);
-Json write_materials(const Scene& scene);
-Json write_textures(SiteFiles& files, const Scene& scene);
+/// @param normal_maps  are seen: with what they need
+Json write_geometry(SiteFiles& files, const ShownScene& shown, bool normal_maps);
+Json write_materials(const Scene& scene, bool normal_maps);
+Json write_textures(SiteFiles& files, const Scene& scene, bool normal_maps);
 Json write_skies(SiteFiles& files, const Scene& scene);
 Json write_meter(SiteFiles& files, const MeterPoints& points);
-Json write_tier(SiteFiles& files, const Package& package, const ShaderTier& tier,
+/// @param coefficients  of the basis that are shown
+Json write_tier(SiteFiles& files, const Package& package, std::size_t coefficients, const ShaderTier& tier,
                 const std::optional<EncodingChoice>& encoding);
 
 }  // namespace sconce::web

@@ -106,19 +106,22 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
 
   next();
   const ShownScene shown(package);
+  const bool normal_maps = m.basis != Basis::flat && shown.scene.has_normal_maps();
+  const std::size_t shown_coefficients = normal_maps ? coefficients(m.basis) : 1;
   Json out = {{"format", "sconce-web"},
               {"version", 1},
               {"generator", m.generator},
               {"name", m.scene_name},
               {"convention", lightmap_convention(m.lightmap_set)},
               {"atlas", {{"width", m.width}, {"height", m.height}, {"pages", m.pages}}},
+              {"coefficients", shown_coefficients},
               {"groups", groups_json(m)},
               {"cameras", cameras_json(params.cameras)},
               {"presets", presets_json(m, params)}};
-  out["geometry"] = write_geometry(files, shown);
+  out["geometry"] = write_geometry(files, shown, normal_maps);
   report.geometry = written();
-  out["materials"] = write_materials(shown.scene);
-  out["textures"] = write_textures(files, shown.scene);
+  out["materials"] = write_materials(shown.scene, normal_maps);
+  out["textures"] = write_textures(files, shown.scene, normal_maps);
   out["skies"] = write_skies(files, shown.scene);
   report.textures = written();
   next();
@@ -126,7 +129,7 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
   report.meter = written();
   for (const ShaderTier* tier : params.tiers) {
     next();
-    out["tiers"].push_back(write_tier(files, package, *tier, params.encoding));
+    out["tiers"].push_back(write_tier(files, package, shown_coefficients, *tier, params.encoding));
     report.tiers.push_back({tier->name, out["tiers"].back()["bytes"].get<std::size_t>()});
   }
   out["surface"] = kSurface;

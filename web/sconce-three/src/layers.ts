@@ -44,8 +44,10 @@ const formatOf = (channels: number) => (channels === 1 ? RedFormat : channels ==
 export class Layers {
   /** By the sampler's name, for ShaderMaterial.uniforms. */
   readonly uniforms: Record<string, { value: Texture }> = {};
-  /** Per group: has arrived. */
+  /** Per group: its illuminance has arrived. */
   readonly arrived: boolean[];
+  /** Per texture. */
+  private readonly whole: boolean[];
 
   constructor(
     private readonly site: Site,
@@ -53,25 +55,27 @@ export class Layers {
     private readonly base: string,
   ) {
     this.arrived = site.groups.map(() => false);
+    this.whole = tier.textures.map(() => false);
     for (const sampler of tier.samplers)
       this.uniforms[sampler.name] = { value: sampler.array ? this.emptyArray(sampler) : this.texture(sampler, 1, 1) };
   }
 
   /**
-   * What has not arrived yet, brightest first; onLayer after each.
+   * What has not arrived yet, brightest first, normal maps' share last; onLayer after each.
    * @throws Error in words for people; what arrived stays
    */
   async load(arrived: Arrived, onLayer: () => void, signal?: AbortSignal): Promise<void> {
     const lux = (t: LayerTexture) => Math.max(...t.groups.map((g) => this.site.groups[g]!.meanLux));
     const left = this.tier.textures
       .map((layout, index) => ({ layout, index }))
-      .filter(({ layout }) => !layout.groups.every((g) => this.arrived[g]))
-      .sort((a, b) => lux(b.layout) - lux(a.layout));
+      .filter(({ index }) => !this.whole[index])
+      .sort((a, b) => a.layout.coefficient - b.layout.coefficient || lux(b.layout) - lux(a.layout));
     const work = async () => {
       for (let next = left.shift(); next; next = left.shift()) {
         const { layout, index } = next;
         for (let page = 0; page < layout.pages.length; ++page) await this.loadPage(layout, index, page, arrived, signal);
-        for (const g of layout.groups) this.arrived[g] = true;
+        this.whole[index] = true;
+        if (layout.coefficient === 0) for (const g of layout.groups) this.arrived[g] = true;
         onLayer();
       }
     };

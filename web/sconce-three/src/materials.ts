@@ -34,6 +34,11 @@ const kVertex = `
 #define normal surface_normal
 in vec2 base_place, metallic_place, emission_place;
 in vec3 front_place, back_place;  // u, v in 1/65535, page + 1
+#ifdef NORMAL_MAPS
+in vec2 normal_place;
+in vec3 vertex_normal, vertex_face;
+in vec4 vertex_tangent;
+#endif
 
 out vec2 base_uv, metallic_uv, emission_uv, normal_uv;
 centroid out vec2 front_uv, back_uv;
@@ -46,9 +51,16 @@ void main() {
   base_uv = base_place;
   metallic_uv = metallic_place;
   emission_uv = emission_place;
+#ifdef NORMAL_MAPS
+  normal_uv = normal_place;
+  normal = vertex_normal;
+  face_normal = vertex_face;
+  tangent = vertex_tangent;
+#else
   normal_uv = vec2(0.0);
   normal = face_normal = vec3(0.0);
   tangent = vec4(0.0);
+#endif
   front_uv = front_place.xy / 65535.0;
   back_uv = back_place.xy / 65535.0;
   front_page = int(front_place.z) - 1;
@@ -88,7 +100,7 @@ export function surfaceShader(site: Site, mixing: string, tone: string, output: 
 ${mixing}
 vec3 sconce_lux = vec3(0.0);
 vec3 illuminance(vec2 uv, int page, vec3 offset) {
-  return sconce_lux = sconce_illuminance(uv, page);
+  return sconce_lux = sconce_illuminance(uv, page${site.coefficients > 1 ? ', offset' : ''});
 }
 #define normal surface_normal
 #define main sconce_main
@@ -117,16 +129,19 @@ export function surfaceMaterial(
     polygonOffsetFactor: 4,
     polygonOffsetUnits: 64,
     // three.js turns the winding round to draw backs.
-    defines: side === BackSide ? { gl_FrontFacing: '(!gl_FrontFacing)' } : {},
+    defines: {
+      ...(side === BackSide ? { gl_FrontFacing: '(!gl_FrontFacing)' } : {}),
+      ...(site.coefficients > 1 ? { NORMAL_MAPS: '' } : {}),
+    },
     vertexShader: kVertex,
     uniforms: {
       ...shared,
       base_map: map(m.baseMap),
       metallic_map: map(m.metallicMap),
       emission_map: map(m.emissionMap),
-      normal_map: { value: kWhite },
-      has_normal_map: { value: false },
-      normal_scale: { value: 1 },
+      normal_map: map(m.normalMap),
+      has_normal_map: { value: m.normalMap >= 0 },
+      normal_scale: { value: m.normalScale },
       base_color: { value: new Vector3(...m.baseColor) },
       alpha: { value: m.alpha },
       alpha_cutoff: { value: m.alphaCutoff },
@@ -156,7 +171,7 @@ export async function loadPicture(site: Site, index: number, base: string, signa
     colorSpaceConversion: 'none',
   });
   const texture = new Texture(bitmap);
-  const isData = site.materials.some((m) => m.metallicMap === index);
+  const isData = site.materials.some((m) => m.metallicMap === index || m.normalMap === index);
   texture.colorSpace = isData ? NoColorSpace : SRGBColorSpace;
   texture.flipY = false;
   texture.wrapS = kWraps[entry.wrap?.[0] ?? 'repeat']!;
@@ -169,7 +184,8 @@ export async function loadPicture(site: Site, index: number, base: string, signa
   return texture;
 }
 
-const kStreams: Record<StreamName, [name: string, numbers: number, Kind: 'f' | 's' | 'i']> = {
+/** n: unit vectors in 1/32767. */
+const kStreams: Record<StreamName, [name: string, numbers: number, kind: 'f' | 's' | 'i' | 'n']> = {
   indices: ['', 1, 'i'],
   positions: ['position', 3, 'f'],
   front: ['front_place', 3, 's'],
@@ -177,7 +193,13 @@ const kStreams: Record<StreamName, [name: string, numbers: number, Kind: 'f' | '
   base: ['base_place', 2, 'f'],
   metallic: ['metallic_place', 2, 'f'],
   emission: ['emission_place', 2, 'f'],
+  normal: ['normal_place', 2, 'f'],
+  normals: ['vertex_normal', 3, 'n'],
+  faces: ['vertex_face', 3, 'n'],
+  tangents: ['vertex_tangent', 4, 'n'],
 };
+
+const kArrays = { f: Float32Array, s: Uint16Array, i: Uint32Array, n: Int16Array };
 
 /** @throws Error in words for people */
 export async function loadGeometry(
@@ -191,10 +213,10 @@ export async function loadGeometry(
     const file = site.geometry.streams[stream];
     if (!file) return;
     const [name, numbers, kind] = kStreams[stream];
-    const data = await fetchPacked(base + file.file, numbers * (kind === 's' ? 2 : 4), arrived, signal);
-    const array = kind === 's' ? new Uint16Array(data) : kind === 'i' ? new Uint32Array(data) : new Float32Array(data);
+    const data = await fetchPacked(base + file.file, numbers * (kind === 's' || kind === 'n' ? 2 : 4), arrived, signal);
+    const array = new kArrays[kind](data);
     if (stream === 'indices') geometry.setIndex(new BufferAttribute(array, 1));
-    else geometry.setAttribute(name, new BufferAttribute(array, numbers));
+    else geometry.setAttribute(name, new BufferAttribute(array, numbers, kind === 'n'));
   };
   await Promise.all((Object.keys(kStreams) as StreamName[]).map(load));
   site.geometry.batches.forEach((batch, i) => geometry.addGroup(batch.first, batch.count, i));

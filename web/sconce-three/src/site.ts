@@ -53,6 +53,8 @@ export interface SiteMaterial {
   baseMap: number;
   metallicMap: number;
   emissionMap: number;
+  normalMap: number;
+  normalScale: number;
 }
 
 export interface SiteTexture extends Partial<SiteFile> {
@@ -73,6 +75,8 @@ export interface LayerTexture {
   type: 'f32' | 'f16' | 'u8' | 'bc6h';
   channels: number;
   planes: number;
+  /** 0: illuminance; 1 to 3: how it changes with the normal's x, y, z. */
+  coefficient: number;
   groups: number[];
   pages: SiteFile[];
 }
@@ -98,7 +102,18 @@ export interface SiteTier {
   samplers: Sampler[];
 }
 
-export type StreamName = 'indices' | 'positions' | 'front' | 'back' | 'base' | 'metallic' | 'emission';
+export type StreamName =
+  | 'indices'
+  | 'positions'
+  | 'front'
+  | 'back'
+  | 'base'
+  | 'metallic'
+  | 'emission'
+  | 'normal'
+  | 'normals'
+  | 'faces'
+  | 'tangents';
 
 export interface Site {
   format: string;
@@ -106,6 +121,8 @@ export interface Site {
   generator: string;
   name: string;
   atlas: { width: number; height: number; pages: number };
+  /** Of the light's basis: 1, or 4 where normal maps are seen. */
+  coefficients: number;
   groups: LightGroup[];
   cameras: SiteCamera[];
   presets: SitePreset[];
