@@ -35,5 +35,5 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # What is opened at run time: OpenGL by libepoxy, letters of the window, .blend files.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-inter")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS blender)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "blender, ffmpeg")
 include(CPack)

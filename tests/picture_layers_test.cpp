@@ -131,6 +131,58 @@ TEST_F(PictureLayers, Sequence) {
   EXPECT_TRUE(std::filesystem::exists(path("p2.png")));
 }
 
+// The second of eight pictures is taken from 45 degrees to the right.
+TEST_F(PictureLayers, Turntable) {
+  const std::vector<std::string> from{"--eye", "0,0.3,2", "--target", "0,0,0"};
+  std::vector<std::string> turn = from;
+  turn.insert(turn.end(), {"--turntable", "8", "-o", path("turn.%d.exr")});
+  ASSERT_EQ(run(turn).code, 0);
+  EXPECT_EQ(read_exr(path("turn.1.exr")).data, render(from).data);
+  const Image turned = read_exr(path("turn.2.exr")),
+              beside = render({"--eye", "1.41421356,0.3,1.41421356", "--target", "0,0,0"});
+  double difference = 0, light = 0;
+  for (std::size_t i = 0; i < beside.data.size(); ++i) {
+    difference += std::abs(double{turned.data[i]} - double{beside.data[i]});
+    light += double{beside.data[i]};
+  }
+  EXPECT_LT(difference, 0.01 * light);
+  EXPECT_TRUE(std::filesystem::exists(path("turn.8.exr")));
+  EXPECT_FALSE(std::filesystem::exists(path("turn.9.exr")));
+  ASSERT_EQ(run({"--turntable", "2", "-o", path("t%d.png")}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("t2.png")));
+}
+
+// A film is what ffmpeg makes of the pictures; here a stand-in that keeps the first of them.
+TEST_F(PictureLayers, Films) {
+  std::filesystem::create_directory(path("bin"));
+  const auto stand_in = [&](const std::string& script) {
+    const auto tool = folder_.write("bin/ffmpeg", "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\n" + script);
+    std::filesystem::permissions(tool, std::filesystem::perms::owner_all);
+  };
+  const auto film_by = [&](const std::string& tools) {
+    return run_sconce({"render", path("wall.sconce"), "--samples", "4", "--size", "40x30", "--turntable", "3",
+                       "-o", path("turn.mp4")},
+                      "env PATH=" + tools);
+  };
+  stand_in(R"(while [ $# -gt 1 ]; do [ "$1" = -i ] && first=$(printf "$2" 1); shift; done
+cp "$first" "$1"
+)");
+  const std::string found = path("bin") + ":/usr/bin:/bin";
+  ASSERT_EQ(film_by(found).code, 0);
+  ASSERT_EQ(run({"-o", path("still.png")}).code, 0);
+  EXPECT_EQ(read_file(path("turn.mp4")), read_file(path("still.png")));
+  std::filesystem::remove(path("turn.mp4"));
+  const Outcome none = film_by(path("no"));
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("ffmpeg, which is not installed"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("turn.%04d.png"), std::string::npos) << none.err;
+  stand_in("echo 'no such codec' >&2\nexit 1\n");
+  const Outcome failed = film_by(found);
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_NE(failed.err.find("turn.mp4: ffmpeg failed: no such codec"), std::string::npos) << failed.err;
+  EXPECT_FALSE(std::filesystem::exists(path("turn.mp4")));
+}
+
 TEST_F(PictureLayers, Errors) {
   expect_error({"--layers", "albedo", "-o", path("x.png")}, "OpenEXR");
   expect_error({"--layers", "albedos", "-o", path("x.exr")}, "groups, albedo, normal, position, depth, id");
@@ -138,6 +190,11 @@ TEST_F(PictureLayers, Errors) {
   expect_error({"--colorspace", "aces", "-o", path("x.exr")}, "rec709, acescg");
   expect_error({"--from", "day", "-o", path("x%d.png")}, "--from, --to and --frames");
   expect_error({"--from", "a", "--to", "b", "--frames", "9", "-o", path("x.png")}, "%04d");
+  expect_error({"--turntable", "1", "-o", path("x%d.png")}, "2 to 100000");
+  expect_error({"--turntable", "9", "-o", path("x.png")}, "%04d");
+  expect_error({"--turntable", "9", "--frames", "9", "-o", path("x%d.png")}, "exclude each other");
+  expect_error({"-o", path("x.mp4")}, "--turntable");
+  expect_error({"--turntable", "9", "--fps", "25", "-o", path("x%d.png")}, "only films");
   folder_.write("a.toml", "camera = \"main\"\n");
   folder_.write("b.toml", "camera = \"other\"\n");
   expect_error({"--from", path("a"), "--to", path("b"), "--frames", "9", "-o", path("x%d.png")}, "--camera");

@@ -181,6 +181,29 @@ TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
   EXPECT_EQ(read_preset(path("before.toml")).assignments[3], "window=on");
 }
 
+// The pictures of `render --turntable`, and the camera is where it was.
+TEST_F(ViewTest, Turntable) {
+  bake();
+  const auto outcome =
+      view("ev100 8\nsettle\npicture " + path("before.png") + "\nturntable " + path("turn%d.png") +
+           " 3\nsettle\npicture " + path("after.png") + "\nturntable " + path("turn.png") + " 4\n");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("has no place for the frame's number"), std::string::npos) << outcome.err;
+  const Image8 before = png("before.png");
+  EXPECT_EQ(png("turn1.png").data, before.data);
+  EXPECT_EQ(png("after.png").data, before.data);
+  const auto rendered = test::run_sconce(
+      {"render", path("x.sconce"), "--ev100", "8", "--turntable", "3", "--device", "cpu", "--size",
+       std::to_string(before.width) + "x" + std::to_string(before.height), "-o", path("cpu%d.png")});
+  ASSERT_EQ(rendered.code, 0) << rendered.err;
+  for (const char* number : {"2", "3"})
+    EXPECT_LE(mean_difference(png(std::string("turn") + number + ".png"),
+                              png(std::string("cpu") + number + ".png")),
+              2)
+        << number;
+  EXPECT_FALSE(fs::exists(path("turn4.png")));
+}
+
 TEST_F(ViewTest, GoalsAreReached) {
   bake();
   const auto fitted =

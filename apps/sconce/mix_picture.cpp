@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "image/frames.h"
 #include "image/io.h"
 #include "mix/layered_image.h"
 #include "tone/apply.h"
@@ -101,18 +102,6 @@ class PictureMixer {
 };
 
 }  // namespace
-
-std::string frame_file(const std::string& pattern, int frame, const std::string& what) {
-  for (std::size_t at = pattern.find('%'); at != std::string::npos; at = pattern.find('%', at + 1)) {
-    const std::size_t end = pattern.find_first_not_of("0123456789", at + 1);
-    if (end == std::string::npos || pattern[end] != 'd') continue;
-    int width = 0;
-    std::from_chars(pattern.data() + at + 1, pattern.data() + end, width);
-    return pattern.substr(0, at) + fmt::format("{:0{}}", frame, std::min(width, 20)) +
-           pattern.substr(end + 1);
-  }
-  throw UsageError(what, "'" + pattern + "' has no place for the frame's number", "a name with %04d");
-}
 
 MixedPictures mix_pictures(const PictureMix& job, const MixOptions& settings, const Preset& preset,
                            const ToneOptions& tone, const Progress& progress) {

@@ -29,7 +29,4 @@ struct MixedPictures {
 MixedPictures mix_pictures(const PictureMix& job, const MixOptions& settings, const Preset& preset,
                            const ToneOptions& tone, const Progress& progress);
 
-/// %d or %04d becomes the frame's number. @throws UsageError where there is none
-std::string frame_file(const std::string& pattern, int frame, const std::string& what);
-
 }  // namespace sconce::app

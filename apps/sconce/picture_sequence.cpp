@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "mix_picture.h"
+#include "core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -28,16 +28,37 @@ void SequenceOptions::declare(Options& options) {
                  "preset that a sequence begins with, FILE or FILE.toml; with --to, --frames");
   options.option("--to", &to,
                  "preset that it ends with: light fades from one to the other, exposure in stops");
-  options.option("--frames", &frames, "pictures of the sequence; the output has %04d (or %d) for the number");
+  options.option(
+      "--frames", &frames,
+      "pictures of the sequence; the output has %04d (or %d) for the number, or is NAME.mp4 (needs ffmpeg)");
+  options.option(
+      "--turntable", &turntable,
+      "so many pictures of a camera that turns once around --target, else around the scene, or on the spot "
+      "where walls stand in the way; output as for --frames");
+  options.option("--fps", &fps, "pictures per second of an MP4 (default: 25)");
 }
 
 void SequenceOptions::check(const std::string& output) const {
-  if (from.empty() || to.empty() || frames == 0)
+  const bool film = lower(fs::path(output).extension().string()) == ".mp4";
+  if (!given()) {
+    if (film)
+      throw UsageError("option '--output'", "a film needs pictures in a row", "--frames, --turntable");
+  } else if (fades() && turntable != 0) {
+    throw UsageError({}, "--turntable and a fade exclude each other");
+  } else if (fades() && (from.empty() || to.empty() || frames == 0)) {
     throw UsageError({}, "a sequence needs --from, --to and --frames");
-  if (frames < 2 || frames > kMostFrames)
-    throw UsageError("option '--frames'", fmt::format("{} frames", frames),
+  } else if (const int count = fades() ? frames : turntable; count < 2 || count > kMostFrames) {
+    throw UsageError(fades() ? "option '--frames'" : "option '--turntable'", fmt::format("{} frames", count),
                      fmt::format("2 to {}", kMostFrames));
-  frame_file(output, 1, "option '--output'");
+  }
+  if (given() && !film) frame_file(output, 1, "option '--output'");
+  if (fps == 0) return;
+  if (!film) throw UsageError("option '--fps'", "only films have a speed", "-o NAME.mp4");
+  if (!(fps >= 1 && fps <= 240)) throw UsageError("option '--fps'", fmt::format("{:g}", fps), "1 to 240");
+}
+
+Frames SequenceOptions::open(const std::string& output) const {
+  return Frames(output, fps != 0 ? fps : Frames::kPerSecond, "option '--output'");
 }
 
 Preset read_named_preset(const std::string& name) {
@@ -54,18 +75,15 @@ SequenceEnd between(const SequenceEnd& a, const SequenceEnd& b, double t) {
   return out;
 }
 
-std::vector<std::string> write_sequence(
-    const SequenceOptions& sequence, const SequenceEnd& from, const SequenceEnd& to,
-    const std::string& output, const std::function<void(const std::string&, const SequenceEnd&)>& write,
-    const Progress& progress) {
-  std::vector<std::string> files;
-  for (int i = 0; i < sequence.frames; ++i) {
+std::vector<std::string> write_frames(Frames& frames, int count,
+                                      const std::function<void(int frame, const std::string& file)>& draw,
+                                      const Progress& progress) {
+  for (int i = 0; i < count; ++i) {
     progress.check();
-    progress.at("frames", static_cast<uint64_t>(i), static_cast<uint64_t>(sequence.frames));
-    files.push_back(frame_file(output, i + 1, "option '--output'"));
-    write(files.back(), between(from, to, static_cast<double>(i) / (sequence.frames - 1)));
+    progress.at("frames", static_cast<uint64_t>(i), static_cast<uint64_t>(count));
+    draw(i, frames.next().string());
   }
-  return files;
+  return frames.finish(progress);
 }
 
 }  // namespace sconce::app

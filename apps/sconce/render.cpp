@@ -13,6 +13,7 @@
 #include "picture_options.h"
 #include "picture_output.h"
 #include "picture_sequence.h"
+#include "session/turntable.h"
 #include "stage.h"
 #include "tone/apply.h"
 
@@ -56,19 +57,24 @@ Exposure exposure_of(const Rendered& rendered, const ExposureChoice& choice, boo
   return exposed ? choice.resolve(rendered.metering) : unit_exposure(rendered.metering.maximum);
 }
 
+Vec3 turntable_axis_of(const Stage& stage, const Package& package, const Camera& camera) {
+  return stage.view() != nullptr ? turntable_axis(*stage.view(), camera)
+                                 : turntable_axis(View(package), camera);
+}
+
 /// What only some pictures can be.
 void check(const SequenceOptions& sequence, const MixOptions& settings, const std::string& layers,
            const std::string& coverage, const std::string& output, const PictureOptions& picture,
            bool linear) {
   if (linear && picture.device == "software")
     throw UsageError("option '--device'", "software draws no linear picture", "-o FILE.png");
-  if (sequence.given()) {
-    sequence.check(output);
-    if (picture.device == "software")
-      throw UsageError("option '--device'", "software fades no pictures", "auto, cpu, gl");
-    if (!settings.preset_file.empty() || !layers.empty() || !coverage.empty())
-      throw UsageError({}, "a sequence takes no --preset, --layers and --coverage");
-  }
+  sequence.check(output);
+  if (sequence.fades() && picture.device == "software")
+    throw UsageError("option '--device'", "software fades no pictures", "auto, cpu, gl");
+  if (sequence.fades() && !settings.preset_file.empty())
+    throw UsageError({}, "a fade takes no --preset: --from and --to are its own");
+  if (sequence.given() && !(layers.empty() && coverage.empty()))
+    throw UsageError({}, "a sequence takes no --layers and --coverage");
   if (layers.empty()) return;
   parse_layers(layers);
   if (!linear) throw UsageError("option '--layers'", "layers need OpenEXR", "-o FILE.exr");
@@ -93,12 +99,13 @@ int run_render(int argc, const char* const* argv) {
   MixOptions settings;
   SequenceOptions sequence;
   PictureOptions picture;
-  Options options("render",
-                  "A picture of a package through a camera: base colour x mixed lightmap, visible emitters, "
-                  "exposure, tone curve.",
-                  {"sconce render kitchen.sconce window=off ceiling=2700K,50% -o evening.png",
-                   "sconce render kitchen.sconce --others off lamp=1 --camera stove --size 1920",
-                   "sconce view {PACKAGE}"});
+  Options options(
+      "render",
+      "A picture of a package through a camera: base colour x mixed lightmap, visible emitters, "
+      "exposure, tone curve.",
+      {"sconce render kitchen.sconce window=off ceiling=2700K,50% -o evening.png",
+       "sconce render kitchen.sconce --others off lamp=1 --camera stove --turntable 120 -o stove.mp4",
+       "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   picture.declare(options);
@@ -117,23 +124,25 @@ int run_render(int argc, const char* const* argv) {
 
   const bool tone_given = !picture.tone.curve.empty();
   if (output.empty()) output = default_output(input, ".png");
-  check_output(output, {".png", ".exr"});
+  check_output(output, {".png", ".exr", ".mp4"});
   if (!coverage.empty()) check_output(coverage, {".exr"});
   if (output == "-" && options.json) throw UsageError({}, "-o - and --json both want standard output");
   const bool linear = lower(fs::path(output).extension().string()) == ".exr";
   const bool acescg = is_acescg(colorspace, linear);
   check(sequence, settings, layers, coverage, output, picture, linear);
-  const Preset preset = sequence.given() ? read_named_preset(sequence.from) : settings.preset();
+  const Preset preset = sequence.fades() ? read_named_preset(sequence.from) : settings.preset();
   PictureOptions last = picture;  // of a sequence
   picture.apply(preset);
   picture.check();
   Preset last_preset;
-  if (sequence.given()) {
+  if (sequence.fades()) {
     last_preset = read_named_preset(sequence.to);
     last.apply(last_preset);
     last.check();
     check_same(picture, last);
   }
+  std::optional<Frames> frames;
+  if (sequence.given()) frames.emplace(sequence.open(output));
   const ToneMapper& tone = picture.tone.mapper();
   const ExposureChoice choice = picture.tone.exposure_choice();
   const bool exposed = !linear || choice.explicitly;
@@ -158,16 +167,29 @@ int run_render(int argc, const char* const* argv) {
     Stage& stage = *rendered.stage;
     device = stage.device();
     if (!coverage.empty()) write_exr(coverage, stage.coverage(), PixelType::half);
-    if (sequence.given()) {
+    if (sequence.turntable != 0) {
+      const Vec3 axis = picture.target.empty() ? turntable_axis_of(stage, package, rendered.camera)
+                                               : parse_point(picture.target, "--target");
+      const std::vector<Image> pages = mix_pages(package, rendered.mix);
+      const auto draw = [&](int frame, const std::string& file) {
+        if (frame > 0)
+          stage.draw(turned(rendered.camera, axis, frame, sequence.turntable), rendered.mix, pages,
+                     rendered.params, progress);
+        linear ? write_linear(file, stage.linear(), exposure, acescg)
+               : write_png(file, stage.toned(exposure, tone));
+      };
+      files = write_frames(*frames, sequence.turntable, draw, progress);
+    } else if (sequence.fades()) {
       const SequenceEnd from{stage.linear(), exposure};
       rendered.mix = settings.make(last_preset, groups, progress);
       render(rendered, package, exposed, true, progress);
       const SequenceEnd to{stage.linear(), exposure_of(rendered, last.tone.exposure_choice(), exposed)};
-      const auto write = [&](const std::string& file, const SequenceEnd& frame) {
+      const auto draw = [&](int i, const std::string& file) {
+        const SequenceEnd frame = between(from, to, static_cast<double>(i) / (sequence.frames - 1));
         linear ? write_linear(file, frame.linear, frame.exposure, acescg)
                : write_png(file, tone_map(frame.linear, frame.exposure, tone));
       };
-      files = write_sequence(sequence, from, to, output, write, progress);
+      files = write_frames(*frames, sequence.frames, draw, progress);
     } else if (!layers.empty()) {
       const LayeredPicture picture_of_layers = picture_layers(
           package, stage, rendered.camera, rendered.mix, rendered.params, parse_layers(layers), progress);
@@ -183,7 +205,7 @@ int run_render(int argc, const char* const* argv) {
   if (options.json) {
     nlohmann::ordered_json report = {
         {"input", input},
-        {"output", sequence.given() ? nlohmann::ordered_json(files) : nlohmann::ordered_json(output)},
+        {"output", files.size() > 1 ? nlohmann::ordered_json(files) : nlohmann::ordered_json(output)},
         {"width", rendered.params.width},
         {"height", rendered.params.height},
         {"samples", rendered.params.samples},
@@ -200,7 +222,7 @@ int run_render(int argc, const char* const* argv) {
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!options.quiet && output != "-") {
     fmt::print("{}: {} x {}, camera {}, exposure {}, {:.1f} s\n",
-               sequence.given() ? files.front() + " ... " + files.back() : output, rendered.params.width,
+               files.size() > 1 ? files.front() + " ... " + files.back() : output, rendered.params.width,
                rendered.params.height, rendered.camera.name, exposure_text, seconds);
   }
   if (output != "-") options.next({input});

@@ -106,6 +106,10 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     line = fmt::format("baking: {} {:.0f} %", baking_.stage(), 100 * baking_.done());
   else if (opening_.running())
     line = "opening " + state_.file.filename().string();
+  else if (turning_)
+    line = fmt::format("turntable, picture {} of {}; Escape stops", turning_->at + 1, turning_->count);
+  else if (filming_.running())
+    line = "making the film";
   else if (measuring_.running())
     line = "measuring";
   else if (preparing_.running())

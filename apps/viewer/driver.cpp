@@ -49,7 +49,8 @@ bool Driver::step() {
   if (settling_) {
     const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() ||
                         v.measuring_.running() || v.preparing_.running() || v.refining_.running() ||
-                        v.mirroring_.running() || (v.state_.lamps.mover && v.state_.lamps.mover->rough());
+                        v.mirroring_.running() || v.turning_ || v.filming_.running() ||
+                        (v.state_.lamps.mover && v.state_.lamps.mover->rough());
     if (moving) return true;
     settling_ = false;
   }
@@ -191,6 +192,11 @@ bool Driver::perform(const Action& action) {
     s.camera = look_at({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
     s.camera.yfov = yfov;
     return frames_ = 1, true;
+  }
+  if (word == "turntable") {
+    const int count = static_cast<int>(numbers(action, 1, 1)[0]);
+    if (count < 2) throw UsageError(where, "a turn has at least two pictures", "turntable FILE N");
+    return v.begin_turn(arguments[0], count), true;
   }
   if (word == "plane") {
     s.plane.height = numbers(action, 0, 1)[0];

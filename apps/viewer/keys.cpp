@@ -9,7 +9,7 @@ void Viewer::keys() {
   if (io.WantTextInput) return;
   const auto pressed = [](const char* name) { return ImGui::IsKeyPressed(key_of(name), false); };
   if (pressed("f1")) state_.help = !state_.help;
-  if (pressed("escape")) state_.help = false, state_.lamps.chosen.reset();
+  if (pressed("escape")) state_.help = false, state_.lamps.chosen.reset(), stop_turn();
   if (!state_.ready()) return;
   Session& session = *state_.session;
   if (io.KeyCtrl) {

@@ -103,8 +103,15 @@ void Viewer::look_panel() {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::SliderFloat("##fov", &fov, 10, 120, "field of view %.0f\u00b0"))
     state_.camera.yfov = fov * kPi / 180;
-  if (ImGui::Button("All in sight", {-1, 0}))
+  const float half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
+  if (ImGui::Button("All in sight", {half, 0}))
     state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
+  ImGui::SameLine();
+  if (ImGui::Button(turning_ ? "Stop turning" : "Turntable", {half, 0}))
+    turning_ ? stop_turn() : attempt([&] { begin_turn(); });
+  tip("the camera turns once, around the scene or on its spot where walls stand in the way: a film where "
+      "ffmpeg is "
+      "installed, else 120 pictures");
 }
 
 }  // namespace sconce::viewer

@@ -50,7 +50,7 @@ Viewer::Viewer(const ViewRequest& request)
 
 Viewer::~Viewer() {
   baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop(),
-      mirroring_.stop();
+      mirroring_.stop(), filming_.stop();
   std::error_code ignored;
   if (!own_folder_.empty()) fs::remove_all(own_folder_, ignored);
   if (request_.forget) return;
@@ -85,6 +85,7 @@ void Viewer::frame(double wait) {
   const ImVec2 canvas_at(0, top), canvas_size(all.x - side, all.y - top - bottom);
   if (state_.ready()) {
     state_.sheet ? draw_sheet(canvas_at, canvas_size) : draw_canvas(canvas_at, canvas_size);
+    attempt([&] { turn(); });
     if (side > 0) side_panel({all.x - side, top}, {side, all.y - top - bottom});
   } else {
     welcome(canvas_at, canvas_size);
@@ -147,7 +148,8 @@ void Viewer::take_results() {
   if (state_.ready()) attempt([&] { light_lamps(); });
   for (const std::string& problem :
        {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem(),
-        preparing_.take_problem(), refining_.take_problem(), mirroring_.take_problem()})
+        preparing_.take_problem(), refining_.take_problem(), mirroring_.take_problem(),
+        filming_.take_problem()})
     if (!problem.empty()) note(problem);
 }
 
@@ -159,6 +161,7 @@ void Viewer::forget_light() {
 
 void Viewer::show(std::shared_ptr<const Opened> opened) {
   forget_light();
+  stop_turn();
   auto canvas = std::make_unique<Canvas>(window_.context(), opened);
   const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
   // A finer bake of the same scene: faders, camera and goals stay.
@@ -351,7 +354,8 @@ void Viewer::attempt(const std::function<void()>& work) {
 
 bool Viewer::busy() const {
   return opening_.running() || baking_.running() || measuring_.running() || tracing_.running() ||
-         preparing_.running() || refining_.running() || mirroring_.running() || !state_.notes.empty();
+         preparing_.running() || refining_.running() || mirroring_.running() || turning_ ||
+         filming_.running() || !state_.notes.empty();
 }
 
 void show_window(const ViewRequest& request) {

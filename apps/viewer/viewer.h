@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "image/frames.h"
 #include "session/background.h"
 #include "session/gizmo.h"
 #include "session/goals.h"
@@ -147,6 +148,13 @@ class Viewer {
   /// PNG as shown, OpenEXR linear. @throws Error
   void write_picture(const std::filesystem::path& file) const;
   void save_preset();
+  /// @param output  as `sconce render --turntable` takes it @throws as Frames
+  void begin_turn(const std::string& output, int count);
+  /// A film, or numbered pictures where ffmpeg is not installed.
+  void begin_turn();
+  void stop_turn();
+  /// Keeps a picture of it that has come to rest, and goes on.
+  void turn();
   /// Keeps what was baked. @param target  empty = beside the scene
   void save_package(std::filesystem::path target);
   /// Writes the scene as it is mixed. @param target  empty = beside the package
@@ -185,6 +193,15 @@ class Viewer {
   Background<std::shared_ptr<const Movable>> preparing_;
   Background<LampMover::Fine> refining_;
   Background<Image> mirroring_;
+  struct Turning {
+    Camera start;
+    Vec3 axis;
+    int count, at = 0;
+    std::shared_ptr<Frames> frames;
+    bool rested = false;
+  };
+  std::optional<Turning> turning_;
+  Background<std::string> filming_;  ///< what was written
   /// Milliseconds of a frame in which faders moved, by a script.
   struct FrameTime {
     double own, drawing;

@@ -52,6 +52,7 @@ constexpr ActionRow kRows[] = {
     {"screenshot", "FILE.png", "the whole window", 1, 1},
     {"picture", "FILE.png|.exr", "the picture alone, without panels; OpenEXR is linear, before exposure", 1,
      1},
+    {"turntable", "FILE N", "the camera turns once: N pictures NAME.%04d.png or .exr, or NAME.mp4", 2, 2},
     {"times", "FILE.csv",
      "writes how long the frames took in which faders moved, since the last `times`: milliseconds of the "
      "window's own work, of OpenGL",
