@@ -85,6 +85,12 @@ Captured capture(const HostRenderer& host, const TextureSpace& space, DrawReques
   return out;
 }
 
+void Captured::append(const Captured& other) {
+  light.insert(light.end(), other.light.begin(), other.light.end());
+  clipped.insert(clipped.end(), other.clipped.begin(), other.clipped.end());
+  cost += other.cost;
+}
+
 Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped) {
   std::array<double, 3> sum{};
   double count = 0;

@@ -27,6 +27,8 @@ struct Captured {
   CaptureCost cost;
 
   bool is_clipped(std::size_t pixel) const { return !clipped.empty() && clipped[pixel] != 0; }
+  /// Pixels of another drawing of the same renderer, behind one's own.
+  void append(const Captured& other);
 };
 
 /// Lets the renderer draw.

@@ -48,7 +48,8 @@ struct DrawRequest {
   int width = 0, height = 0;            ///< of the target, pixels
   std::span<const uint32_t> triangles;  ///< to draw, of the World
   /// Per triangle, where its corners lie in the target, in pixels from the corner of the first row's first
-  /// pixel. Wound as the triangle: counter-clockwise where rows go up.
+  /// pixel. Wound as the triangle: counter-clockwise where rows go up; clockwise where its back is asked for,
+  /// which only renderers that light both sides will show (gl_FrontFacing is false).
   std::span<const std::array<Vec2, 3>> corners;
 };
 

@@ -17,6 +17,8 @@ using Lights = DrawRequest::Lights;
 constexpr float kDrawn = 0.999f;     // transmission from which a face counts as not drawn
 constexpr float kAnswers = 1e-3f;    // of a white card under a light of 1: less is no answer
 constexpr float kPlacement = 0.05f;  // share of light that may depend on a face's place
+constexpr float kThrough = 0.01f;    // transmission that is no rounding
+constexpr float kBack = 0.25f;       // of what a front reflects: backs that do are lit
 constexpr float kCleared = 0.25f;    // how far the mean of pixels outside may be from the background
 
 /// Largest first, the first few of each material; all of them by face.
@@ -69,6 +71,7 @@ class Detector {
     unlit();
     reflections();
     by_material();
+    backs();
     held_out();
     placement();
     return std::move(out_);
@@ -116,6 +119,7 @@ class Detector {
       SurfaceResponse& r = out_.faces[i].response;
       const bool drawn = luminance(r.transmission) < kDrawn;
       const bool answered = slopes[i].most() > kAnswers;
+      card_.push_back(slopes[i].most());
       if (!drawn) ++out_.undrawn;
       if (drawn && answered) ++answers;
       known_.push_back(drawn && answered ? 1 : 0);
@@ -207,6 +211,41 @@ class Detector {
                           scene_.materials[m].name, 100 * out_.materials[m].spread));
   }
 
+  /// Whether the renderer lights the backs of faces that may show them: with one light behind each.
+  void backs() {
+    std::vector<std::size_t> asked;
+    std::array<bool, 6> wanted{};
+    for (std::size_t i = 0; i < space_.triangles.size(); ++i) {
+      const uint32_t m = world_.materials[space_.triangles[i]].value;
+      if (known_[i] == 0 || !(scene_.materials[m].double_sided || out_.materials[m].lets_through())) continue;
+      asked.push_back(i);
+      wanted[facing_axis(world_.face_normals[space_.triangles[i]])] = true;
+    }
+    if (asked.empty()) return;
+    const TextureSpace behind = mirrored(space_);
+    std::vector<double> shown(scene_.materials.size()), expected(scene_.materials.size());
+    for (std::size_t axis = 0; axis < wanted.size(); ++axis) {
+      if (!wanted[axis]) continue;
+      DrawRequest request;
+      request.lights = Lights::probe;
+      request.probe.to_light = -axis_direction(axis);
+      request.eye = far_eye(request.probe.to_light);
+      progress_.check();
+      const Captured drawn = capture(host_, behind, request, "backs under one light");
+      out_.cost += drawn.cost;
+      for (const std::size_t i : asked) {
+        if (facing_axis(world_.face_normals[space_.triangles[i]]) != axis) continue;
+        bool clipped = false;
+        const SurfaceResponse& r = out_.faces[i].response;
+        const uint32_t m = world_.materials[space_.triangles[i]].value;
+        shown[m] += static_cast<double>(luminance(face_mean(behind, i, drawn, clipped) - r.emission));
+        expected[m] += static_cast<double>(luminance(r.reflectance) * card_[i]);
+      }
+    }
+    for (std::size_t m = 0; m < shown.size(); ++m)
+      out_.materials[m].two_sided = expected[m] > 0 && shown[m] > static_cast<double>(kBack) * expected[m];
+  }
+
   void report_unknown() {
     std::vector<uint8_t> worn(scene_.materials.size(), 0);
     for (const Id<Material> m : world_.materials) worn[m.value] = 1;
@@ -255,11 +294,17 @@ class Detector {
   const DetectParams& params_;
   const Progress& progress_;
   TextureSpace space_;
+  std::vector<float> card_;     ///< per face: brightest white card in its place
   std::vector<uint8_t> known_;  ///< per face: 1 where it was drawn and its card answers
   Detection out_;
 };
 
 }  // namespace
+
+bool DetectedMaterial::lets_through() const {
+  const Rgb& t = response.transmission;
+  return (t.r + t.g + t.b) / 3 > kThrough;
+}
 
 const SurfaceResponse& Detection::of(const World& world, uint32_t triangle) const {
   const auto it = std::lower_bound(faces.begin(), faces.end(), triangle,

@@ -27,6 +27,9 @@ struct DetectedMaterial {
   float spread = 0;          ///< of reflectance over them, largest distance to the mean
   float residual = 0;        ///< of what it does under held-out lights: share of a white card's light
   bool lambertian = true;    ///< residual below the limit
+  bool two_sided = false;    ///< the renderer lights backs, too; asked where light goes through or both show
+
+  bool lets_through() const;  ///< more than rounding makes
 };
 
 struct DetectParams {
@@ -54,7 +57,8 @@ struct Detection {
 };
 
 /// Draws with no light on black and on white, with one light on the faces and on a white card in their place,
-/// along each axis; then with lights and eyes held out (lambertian.h), and with all lights at two places.
+/// along each axis; those of transparent or double-sided materials from behind; then with lights and eyes
+/// held out (lambertian.h), and with all lights at two places.
 /// @throws Error naming the renderer's fault: besides capture()'s, it draws nothing, does not clear, or its
 /// card does not answer; Cancelled
 Detection detect_materials(const Scene& scene, const World& world, const HostRenderer& host,

@@ -23,10 +23,27 @@ TransferParams with_transmission(TransferParams params, const Detection& detecti
   for (const DetectedMaterial& m : detection.materials) {
     const Rgb& t = m.response.transmission;
     params.transmission.push_back((t.r + t.g + t.b) / 3);
-    any = any || params.transmission.back() > 0.01f;  // below it is rounding
+    any = any || m.lets_through();
   }
   if (!any) params.transmission.clear();
   return params;
+}
+
+/// Follows rays in a scene of the materials that were found: rows are fitted to light that they reflect. What
+/// lets light through has two sides.
+Operator followed(const TracedScene& traced, const RelightReceivers& receivers, const Detection& detection,
+                  TransferParams params, const Progress& progress) {
+  constexpr float kLeast = 0.5f;  // of black surfaces that shine, or their light would be no light to fit to
+  Scene found = with_detected(traced.scene, detection);
+  for (std::size_t m = 0; m < found.materials.size(); ++m) {
+    const DetectedMaterial& is = detection.materials[m];
+    Material& material = found.materials[m];
+    if (is.lets_through() || is.two_sided) material.double_sided = true;
+    if (is.response.emission.max() > 0 && material.base_color.max() < kLeast)
+      material.base_color = Rgb(kLeast);
+  }
+  return make_operator({found, traced.world, traced.tracer}, receivers,
+                       with_transmission(std::move(params), detection), {}, {progress, nullptr});
 }
 
 }  // namespace
@@ -37,20 +54,35 @@ RealtimeRadiosity::RealtimeRadiosity(const TracedScene& traced, const RelightRec
     : world_(traced.world),
       direct_(std::move(direct)),
       host_(std::move(host)),
-      op_(make_operator(traced, receivers, with_transmission(std::move(params), detection), {},
-                        {progress, nullptr})),
+      op_(followed(traced, receivers, detection, std::move(params), progress)),
       indirect_(op_.gather.rows),
       ambient_(static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height) *
                static_cast<std::size_t>(op_.pages)) {
+  find_backs(detection);
   find_faces(traced);
   if (op_.kind == OperatorReceivers::texels) find_copies();
   set_materials(detection);
 }
 
+void RealtimeRadiosity::find_backs(const Detection& detection) {
+  backs_ = direct_;
+  backs_.triangles.clear(), backs_.corners.clear();
+  for (std::size_t i = 0; i < direct_.triangles.size(); ++i)
+    if (detection.materials[world_.materials[direct_.triangles[i]].value].two_sided) {
+      backs_.triangles.push_back(direct_.triangles[i]);
+      backs_.corners.push_back(direct_.corners[i]);
+    }
+  backs_ = backs_.triangles.empty() ? TextureSpace() : mirrored(std::move(backs_));
+}
+
 // The operator knows its points by place alone; a ray from just above finds the face again.
 void RealtimeRadiosity::find_faces(const TracedScene& traced) {
-  std::vector<uint32_t> index(world_.size(), kNone);
-  for (uint32_t i = 0; i < direct_.triangles.size(); ++i) index[direct_.triangles[i]] = i;
+  const auto index_of = [&](const TextureSpace& space) {
+    std::vector<uint32_t> index(world_.size(), kNone);
+    for (uint32_t i = 0; i < space.triangles.size(); ++i) index[space.triangles[i]] = i;
+    return index;
+  };
+  const std::vector<uint32_t> fronts = index_of(direct_), backs = index_of(backs_);
   faces_.assign(op_.lit.size(), kNone);
   blends_.assign(op_.lit.size(), {});
   const float near = 1e-3f * world_.bounds.diagonal();
@@ -59,11 +91,14 @@ void RealtimeRadiosity::find_faces(const TracedScene& traced) {
     const Vec3 n = unpack_normal(op_.lit[i].geometric);
     const Hit hit = traced.tracer.closest({offset_origin(position_of(op_.lit[i]), n, n), -n, near});
     if (hit) faces_[i] = hit.triangle;
-    if (hit && !hit.back && index[hit.triangle] != kNone) {
-      const auto& [a, b, c] = direct_.corners[index[hit.triangle]];
-      if (const auto blend =
-              blend_at(direct_, a + hit.barycentric.x * (b - a) + hit.barycentric.y * (c - a))) {
+    const TextureSpace& space = hit.back ? backs_ : direct_;
+    const uint32_t face = hit ? (hit.back ? backs : fronts)[hit.triangle] : kNone;
+    if (face != kNone) {
+      const auto& [a, b, c] = space.corners[face];
+      if (const auto blend = blend_at(space, a + hit.barycentric.x * (b - a) + hit.barycentric.y * (c - a))) {
         blends_[i] = *blend;
+        if (hit.back)
+          for (uint32_t& pixel : blends_[i].pixels) pixel += static_cast<uint32_t>(direct_.pixels());
         return;
       }
     }
@@ -116,6 +151,7 @@ FrameReport RealtimeRadiosity::update() {
   Captured direct;
   try {
     direct = capture(host_, direct_, request, "direct light");
+    if (!backs_.triangles.empty()) direct.append(capture(host_, backs_, request, "direct light on backs"));
   } catch (const Error& e) {
     report.fault = e.what();
     std::fill(ambient_.begin(), ambient_.end(), Rgb());

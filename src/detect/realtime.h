@@ -25,7 +25,8 @@ struct FrameReport {
 /// emission + reflectance x (its own direct light + ambient).
 class RealtimeRadiosity {
  public:
-  /// Follows rays, once; those that meet what lets light through go on behind it.
+  /// Follows rays, once; those that meet what lets light through go on behind it, and both of its sides send
+  /// light on. Of backs that the renderer lights, the light is drawn, too.
   /// @param traced     must outlive it, as what the receivers refer to
   /// @param detection  its transmissions are taken by material, and stay; a share without colour
   /// @param direct   where faces are drawn to see their light; the faces of all that sends light on
@@ -53,17 +54,18 @@ class RealtimeRadiosity {
   struct Copy {
     uint32_t to, from;
   };
+  void find_backs(const Detection& detection);
   void find_faces(const TracedScene& traced);
   void find_copies();
 
   const World& world_;
-  TextureSpace direct_;
+  TextureSpace direct_, backs_;  ///< fronts, and faces whose backs the renderer lights
   HostRenderer host_;
   Operator op_;
   std::vector<Rgbx> albedo_;  ///< the operator's, per node
   std::unique_ptr<FoldedBounces> bounces_;
   std::vector<uint32_t> faces_;     ///< per lit point: its triangle, or kNone
-  std::vector<PixelBlend> blends_;  ///< per lit point: what it reads
+  std::vector<PixelBlend> blends_;  ///< per lit point: what it reads, of fronts and then of backs
   std::size_t uncovered_ = 0;
   std::vector<Copy> copies_;  ///< texels around receivers
   std::vector<Rgb> indirect_, ambient_;

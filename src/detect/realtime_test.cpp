@@ -153,6 +153,45 @@ TEST(RealtimeRadiosity, LightGoesThrough) {
   }
 }
 
+// A ball of frosted glass with a lamp in it, in a shell: all light is even, so that with what leaves surfaces
+//   inner = rho lamp + rho (inner + tau shell),  outer = rho shell,
+//   shell = rho_s (3/4 shell + 1/4 (outer + tau (inner + tau shell))).
+// Without its back the glass would be dark, and all else with it.
+TEST(RealtimeRadiosity, BothSidesOfWhatLetsLightThrough) {
+  Scene scene;  // fine, since shading normals make more of a coarse ball's light
+  add_sphere(scene, "shell", add_material(scene, "grey", Rgb(0.5f)), Vec3(0), 1, 32, true);
+  add_sphere(scene, "glass", add_material(scene, "glass", Rgb(0)), Vec3(0), 0.5f, 32, false);
+  const float tau = 0.5f, rho = 0.4f, rho_s = 0.6f;
+  Rig rig(scene, {{{Rgb(), Rgb(), Rgb(rho_s)}}, {{Rgb(), Rgb(tau), Rgb(rho)}, 0, 0, true}},
+          {{Vec3(0), Rgb(0.5f)}});
+  EXPECT_TRUE(rig.detection.materials[1].two_sided);
+  EXPECT_EQ(rig.radiosity.uncovered(), 0u);
+  const FrameReport report = rig.radiosity.update();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report.capture.draws, 2u);
+  const double lamp = static_cast<double>(rig.host.unit * rho) * 0.5 / 0.25;
+  const double t = static_cast<double>(tau), r = static_cast<double>(rho), s = static_cast<double>(rho_s);
+  // inner = (lamp + r t shell) / (1 - r)
+  const double a = lamp / (1 - r), b = r * t / (1 - r);
+  const double shell = s * 0.25 * t * a / (1 - s * (0.75 + 0.25 * (r + t * (b + t))));
+  const std::size_t of_shell = rig.scene.meshes[0].positions.size();
+  double sum = 0;
+  for (std::size_t v = 0; v < of_shell; ++v) sum += static_cast<double>(rig.radiosity.ambient()[v].g);
+  EXPECT_NEAR(sum / static_cast<double>(of_shell), shell / s, 0.03 * shell / s);
+}
+
+// The same glass of a renderer that lights fronts only.
+TEST(RealtimeRadiosity, BacksThatTheRendererDoesNotLight) {
+  Scene scene = ball();
+  add_sphere(scene, "glass", add_material(scene, "glass", Rgb(0)), Vec3(0), 0.5f, 8, false);
+  Rig rig(scene, {{{Rgb(), Rgb(), Rgb(0.6f)}}, {{Rgb(), Rgb(0.5f), Rgb(0.4f)}}}, {{Vec3(0), Rgb(0.5f)}});
+  EXPECT_FALSE(rig.detection.materials[1].two_sided);
+  const FrameReport report = rig.radiosity.update();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report.capture.draws, 1u);
+  EXPECT_EQ(rig.mean(), 0);
+}
+
 // Darker paint, found by looking again.
 TEST_F(InABall, MaterialsMayChange) {
   rig.host.materials[0].response.reflectance = Rgb(0.3f);

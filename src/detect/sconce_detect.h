@@ -39,7 +39,8 @@ typedef struct sconce_draw_request {
   int width, height;       /* pixels */
   size_t count;            /* faces to draw */
   const uint32_t* faces;   /* their triangles */
-  const float* corners;    /* 6 per face: x, y of its corners, in pixels from the first row's first corner */
+  const float* corners;    /* 6 per face: x, y of its corners, in pixels from the first row's first corner;
+                            * counter-clockwise where rows go up, clockwise where the face's back is asked for */
 } sconce_draw_request;
 
 /* Fills width x height x RGB floats (linear) or bytes (the other targets). Returns 0, or another number where

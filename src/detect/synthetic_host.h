@@ -13,6 +13,7 @@ namespace sconce {
 struct SyntheticMaterial {
   SurfaceResponse response;
   float specular = 0, shininess = 0;  ///< a Phong lobe beside it, share of a white card's light
+  bool two_sided = false;             ///< its back is lit, too
 };
 
 struct SyntheticLamp {
@@ -70,13 +71,15 @@ struct SyntheticHost {
       const uint32_t t = request.triangles[i];
       const auto& [a, b, c] = request.corners[i];
       const glm::mat2 inverse = glm::inverse(glm::mat2(b - a, c - a));
+      const bool mirrored = glm::determinant(inverse) < 0;
       each_pixel(space, i, [&](std::size_t pixel) {
         const Vec2 p(static_cast<float>(pixel % static_cast<std::size_t>(request.width)) + 0.5f,
                      static_cast<float>(pixel / static_cast<std::size_t>(request.width)) + 0.5f);
         const Vec2 w = inverse * (p - a);
         SyntheticMaterial m = materials[world.materials[t].value];
         m.response.reflectance += Rgb(shift * w.x * w.y * static_cast<float>(t % 2));
-        picture[pixel] = shaded(m, request, world.position(t, w), world.normal(t, w),
+        const float side = m.two_sided && mirrored ? -1.0f : 1.0f;
+        picture[pixel] = shaded(m, request, world.position(t, w), side * world.normal(t, w),
                                 2 * p.x > static_cast<float>(request.width));
       });
     }

@@ -77,6 +77,13 @@ TextureSpace atlas_space(const Atlas& atlas) {
   return space;
 }
 
+TextureSpace mirrored(TextureSpace space) {
+  for (std::array<Vec2, 3>& corners : space.corners)
+    for (Vec2& corner : corners) corner.x = static_cast<float>(space.width) - corner.x;
+  mark_covered(space);
+  return space;
+}
+
 std::optional<PixelBlend> blend_at(const TextureSpace& space, Vec2 at) {
   PixelBlend blend;
   const auto covered = [&](int x, int y) {

@@ -32,6 +32,9 @@ std::vector<int> texels_by_area(const World& world, std::span<const uint32_t> tr
 /// The faces where a lightmap has them, pages one above the other. Fronts only.
 TextureSpace atlas_space(const Atlas& atlas);
 
+/// The same faces as seen from behind: their corners go round the other way.
+TextureSpace mirrored(TextureSpace space);
+
 /// Calls f(pixel) for the pixels whose middle lies on a face.
 template <class F>
 void each_pixel(const TextureSpace& space, std::size_t face, F&& f) {
