@@ -31,18 +31,23 @@ std::vector<std::array<Vec2, 3>> AmbientMap::coordinates() const {
   return all;
 }
 
-void AmbientMap::start(const HostRenderer& host, TransferParams params, const Progress& progress) {
+void AmbientMap::start(const HostRenderer& host, TransferParams params, const Progress& progress,
+                       const DetectParams& look) {
   params.keep_sums = true;
-  detection_ = detect_materials(scene_, world_, host);
+  detection_ = detect_materials(scene_, world_, host, look, progress);
   radiosity_ = std::make_unique<RealtimeRadiosity>(traced_, texel_receivers(traced_, atlas_), space_, host,
                                                    detection_, params, progress);
   reflectance_.assign(space_.pixels(), Rgb());
   std::vector<std::size_t> known;
-  for (std::size_t f = 0; f < space_.triangles.size(); ++f)
+  for (std::size_t f = 0; f < space_.triangles.size(); ++f) {
+    const auto& [a, b, c] = space_.corners[f];
+    const glm::mat2 inverse = glm::inverse(glm::mat2(b - a, c - a));
     each_pixel(space_, f, [&](std::size_t pixel) {
-      reflectance_[pixel] = detection_.of(world_, space_.triangles[f]).reflectance;
+      reflectance_[pixel] =
+          detection_.at(world_, space_.triangles[f], inverse * (pixel_middle(space_, pixel) - a)).reflectance;
       known.push_back(pixel);
     });
+  }
   std::vector<uint8_t> done = space_.covered;
   const auto width = static_cast<std::size_t>(space_.width);
   for (int ring = 0; ring < kRings; ++ring)

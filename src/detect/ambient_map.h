@@ -23,14 +23,16 @@ class AmbientMap {
 
   /// Asks the renderer for its materials and follows rays, once.
   /// @param params  their sums are kept whatever they say: even light stays exact
+  /// @param look    how materials are detected
   /// @throws Error, UsageError, Cancelled as detect_materials() and make_operator()
-  void start(const HostRenderer& host, TransferParams params, const Progress& progress = {});
+  void start(const HostRenderer& host, TransferParams params, const Progress& progress = {},
+             const DetectParams& look = {});
 
   /// As RealtimeRadiosity::update(). @pre started
   FrameReport update() { return radiosity_->update(); }
   /// Height x width, to be multiplied by the surface's own reflectance and added.
   std::span<const Rgb> texels() const { return radiosity_->ambient(); }
-  /// The same times the reflectance that was detected, of the material or the face: for renderers that can
+  /// The same times the reflectance that was detected, of the material, face or texel: for renderers that can
   /// only add. Texels around a face have its reflectance, so that filtering is right.
   std::vector<Rgb> reflected() const;
   const Detection& detection() const { return detection_; }

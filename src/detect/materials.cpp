@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "detect/axes.h"
+#include "detect/backs.h"
 #include "detect/lambertian.h"
+#include "detect/patches.h"
 #include "detect/placement.h"
 #include "detect/slope.h"
 
@@ -18,33 +21,19 @@ constexpr float kDrawn = 0.999f;     // transmission from which a face counts as
 constexpr float kAnswers = 1e-3f;    // of a white card under a light of 1: less is no answer
 constexpr float kPlacement = 0.05f;  // share of light that may depend on a face's place
 constexpr float kThrough = 0.01f;    // transmission that is no rounding
-constexpr float kBack = 0.25f;       // of what a front reflects: backs that do are lit
 constexpr float kCleared = 0.25f;    // how far the mean of pixels outside may be from the background
 
 /// Largest first, the first few of each material; all of them by face.
 std::vector<uint32_t> choose_faces(const Scene& scene, const World& world, const DetectParams& params) {
   std::vector<uint32_t> all(world.size());
   for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
-  if (params.per == DetectParams::Per::face) return all;
+  if (params.per != DetectParams::Per::material) return all;
   std::stable_sort(all.begin(), all.end(),
                    [&](uint32_t a, uint32_t b) { return world.area(a) > world.area(b); });
   std::vector<int> counts(scene.materials.size(), 0);
   std::erase_if(all, [&](uint32_t t) { return ++counts[world.materials[t].value] > params.faces; });
   std::sort(all.begin(), all.end());
   return all;
-}
-
-/// The axis that a face looks along most: 2 x coordinate, + 1 where negative.
-std::size_t facing_axis(const Vec3& n) {
-  const Vec3 a = glm::abs(n);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return static_cast<std::size_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
-}
-
-Vec3 axis_direction(std::size_t axis) {
-  Vec3 d(0);
-  d[static_cast<int>(axis / 2)] = axis % 2 == 0 ? 1.0f : -1.0f;
-  return d;
 }
 
 void check_cleared(const TextureSpace& space, const Captured& captured, float background,
@@ -67,9 +56,14 @@ class Detector {
 
   Detection run() {
     const std::vector<uint32_t> chosen = choose_faces(scene_, world_, params_);
-    space_ = face_cells(chosen, std::vector<int>(chosen.size(), params_.texels));
+    const bool by_texel = params_.per == DetectParams::Per::texel;
+    space_ = face_cells(chosen, by_texel ? texels_by_area(world_, chosen, params_.texel, params_.most_texels)
+                                         : std::vector<int>(chosen.size(), params_.texels));
+    patches_ = Patches(space_, by_texel);
     unlit();
     reflections();
+    by_face();
+    if (by_texel) by_texels();
     by_material();
     backs();
     held_out();
@@ -88,7 +82,7 @@ class Detector {
 
   void unlit() {
     DrawRequest request;
-    request.eye = far_eye(axis_direction(4));
+    request.eye = far_eye(world_, axis_direction(4));
     const std::string on_black = "unlit faces on black", on_white = "unlit faces on white";
     const Captured black = draw(request, on_black);
     request.background = 1;
@@ -96,35 +90,58 @@ class Detector {
     check_cleared(space_, black, 0, on_black);
     check_cleared(space_, white, 1, on_white);
     bool clipped = false;
-    for (std::size_t i = 0; i < space_.triangles.size(); ++i) {
-      SurfaceResponse r;
-      r.emission = face_mean(space_, i, black, clipped);
-      const Rgb through = face_mean(space_, i, white, clipped) - r.emission;
+    responses_.resize(patches_.size());
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+      SurfaceResponse& r = responses_[p];
+      r.emission = patches_.mean(p, black, clipped);
+      const Rgb through = patches_.mean(p, white, clipped) - r.emission;
       r.transmission = Rgb(std::clamp(through.r, 0.0f, 1.0f), std::clamp(through.g, 0.0f, 1.0f),
                            std::clamp(through.b, 0.0f, 1.0f));
-      out_.faces.push_back({space_.triangles[i], r});
     }
   }
 
   void reflections() {
-    std::vector<Slope> slopes(space_.triangles.size());
-    for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i].add(Rgb(), out_.faces[i].response.emission);
-    std::array<bool, 6> wanted{};
+    std::vector<Slope> slopes(patches_.size());
+    for (std::size_t p = 0; p < slopes.size(); ++p) slopes[p].add(Rgb(), responses_[p].emission);
+    std::array<bool, kAxes> wanted{};
     for (const uint32_t t : space_.triangles) wanted[facing_axis(world_.face_normals[t])] = true;
     for (std::size_t axis = 0; axis < wanted.size(); ++axis)
       if (wanted[axis]) add_light(axis, slopes);
+    drawn_.resize(patches_.size()), answered_.resize(patches_.size());
+    cards_.assign(space_.triangles.size(), 0);
+    for (std::size_t p = 0; p < slopes.size(); ++p) {
+      float& card = cards_[patches_.face(p)];
+      card = std::max(card, slopes[p].most());
+      drawn_[p] = luminance(responses_[p].transmission) < kDrawn ? 1 : 0;
+      if (!(slopes[p].most() > kAnswers)) continue;
+      answered_[p] = drawn_[p];
+      limit(slopes[p].value(), responses_[p]);
+    }
+  }
 
+  /// Means over the patches of each face, as far as they answered.
+  void by_face() {
     std::size_t answers = 0;
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-      SurfaceResponse& r = out_.faces[i].response;
-      const bool drawn = luminance(r.transmission) < kDrawn;
-      const bool answered = slopes[i].most() > kAnswers;
-      card_.push_back(slopes[i].most());
+    for (std::size_t p = 0; p < patches_.size();) {
+      const uint32_t face = patches_.face(p);
+      SurfaceResponse all, known;
+      float count = 0, counted = 0;
+      bool drawn = false;
+      const auto add = [](SurfaceResponse& sum, const SurfaceResponse& r, float weight) {
+        sum.emission += weight * r.emission, sum.transmission += weight * r.transmission;
+        sum.reflectance += weight * r.reflectance;
+      };
+      for (; p < patches_.size() && patches_.face(p) == face; ++p) {
+        add(all, responses_[p], 1), ++count;
+        drawn = drawn || drawn_[p] != 0;
+        if (answered_[p] != 0) add(known, responses_[p], 1), ++counted;
+      }
+      SurfaceResponse mean;
+      add(mean, counted > 0 ? known : all, 1 / (counted > 0 ? counted : count));
       if (!drawn) ++out_.undrawn;
-      if (drawn && answered) ++answers;
-      known_.push_back(drawn && answered ? 1 : 0);
-      if (!answered) continue;
-      limit(slopes[i].value(), r);
+      if (counted > 0) ++answers;
+      known_.push_back(counted > 0 ? 1 : 0);
+      out_.faces.push_back({space_.triangles[face], mean});
     }
     if (out_.undrawn == out_.faces.size())
       throw Error("the renderer", fmt::format("drew none of {} faces: white stays white", out_.faces.size()));
@@ -134,28 +151,39 @@ class Detector {
                   "a diffuse card of reflectance 1, lit by one light of the intensity that was asked for");
   }
 
-  /// Rounded readings differ with the intensity, and so their mean is finer than a code.
+  void by_texels() {
+    out_.texels.resize(space_.pixels());
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      for (const uint32_t pixel : patches_.pixels(p))
+        out_.texels[pixel] = answered_[p] != 0 ? responses_[p] : out_.faces[patches_.face(p)].response;
+    out_.space = space_;
+  }
+
+  /// Rounded readings differ with the intensity, and so their mean is finer than a code; more of them where
+  /// each is of a single texel.
   void add_light(std::size_t axis, std::vector<Slope>& slopes) {
     static constexpr std::array kIntensities{1.0f, 1.6f, 1.5f, 1.4f, 1.3f, 1.2f,
                                              1.1f, 0.9f, 0.8f, 0.7f, 0.5f, 0.3f};
     DrawRequest request;
     request.lights = Lights::probe;
     request.probe.to_light = axis_direction(axis);
-    request.eye = far_eye(normalize_or(Frame(request.probe.to_light).x + 0.4f * request.probe.to_light, {}));
-    for (const float intensity : kIntensities) {
-      request.probe.intensity = intensity;
+    request.eye =
+        far_eye(world_, normalize_or(Frame(request.probe.to_light).x + 0.4f * request.probe.to_light, {}));
+    const bool floats = host_.format == TargetFormat::linear;
+    const std::size_t rounds = params_.per == DetectParams::Per::texel ? 3 : 1;
+    for (std::size_t k = 0; k < (floats ? 1 : rounds * kIntensities.size()); ++k) {
+      const auto round = static_cast<float>(k / kIntensities.size());
+      request.probe.intensity = kIntensities[k % kIntensities.size()] * (1 - 0.03f * round);
       request.white_card = false;
       const Captured faces = draw(request, "faces under one light");
       request.white_card = true;
       const Captured card = draw(request, "a white card under one light");
-      for (std::size_t i = 0; i < slopes.size(); ++i) {
-        if (facing_axis(world_.face_normals[space_.triangles[i]]) != axis) continue;
+      for (std::size_t p = 0; p < slopes.size(); ++p) {
+        if (facing_axis(world_.face_normals[space_.triangles[patches_.face(p)]]) != axis) continue;
         bool clipped = false;
-        const Rgb lit = face_mean(space_, i, faces, clipped), white = face_mean(space_, i, card, clipped);
-        if (clipped) continue;
-        slopes[i].add(white, lit);
+        const Rgb lit = patches_.mean(p, faces, clipped), white = patches_.mean(p, card, clipped);
+        if (!clipped) slopes[p].add(white, lit);
       }
-      if (host_.format == TargetFormat::linear) break;
     }
   }
 
@@ -211,39 +239,17 @@ class Detector {
                           scene_.materials[m].name, 100 * out_.materials[m].spread));
   }
 
-  /// Whether the renderer lights the backs of faces that may show them: with one light behind each.
   void backs() {
-    std::vector<std::size_t> asked;
-    std::array<bool, 6> wanted{};
-    for (std::size_t i = 0; i < space_.triangles.size(); ++i) {
-      const uint32_t m = world_.materials[space_.triangles[i]].value;
-      if (known_[i] == 0 || !(scene_.materials[m].double_sided || out_.materials[m].lets_through())) continue;
-      asked.push_back(i);
-      wanted[facing_axis(world_.face_normals[space_.triangles[i]])] = true;
+    std::vector<CardedFace> asked;
+    for (std::size_t i = 0; i < out_.faces.size(); ++i) {
+      const uint32_t m = world_.materials[out_.faces[i].triangle].value;
+      if (known_[i] != 0 && (scene_.materials[m].double_sided || out_.materials[m].lets_through()))
+        asked.push_back({&out_.faces[i], cards_[i]});
     }
     if (asked.empty()) return;
-    const TextureSpace behind = mirrored(space_);
-    std::vector<double> shown(scene_.materials.size()), expected(scene_.materials.size());
-    for (std::size_t axis = 0; axis < wanted.size(); ++axis) {
-      if (!wanted[axis]) continue;
-      DrawRequest request;
-      request.lights = Lights::probe;
-      request.probe.to_light = -axis_direction(axis);
-      request.eye = far_eye(request.probe.to_light);
-      progress_.check();
-      const Captured drawn = capture(host_, behind, request, "backs under one light");
-      out_.cost += drawn.cost;
-      for (const std::size_t i : asked) {
-        if (facing_axis(world_.face_normals[space_.triangles[i]]) != axis) continue;
-        bool clipped = false;
-        const SurfaceResponse& r = out_.faces[i].response;
-        const uint32_t m = world_.materials[space_.triangles[i]].value;
-        shown[m] += static_cast<double>(luminance(face_mean(behind, i, drawn, clipped) - r.emission));
-        expected[m] += static_cast<double>(luminance(r.reflectance) * card_[i]);
-      }
-    }
-    for (std::size_t m = 0; m < shown.size(); ++m)
-      out_.materials[m].two_sided = expected[m] > 0 && shown[m] > static_cast<double>(kBack) * expected[m];
+    const std::vector<uint8_t> lit =
+        lit_backs(world_, host_, asked, scene_.materials.size(), params_.texels, progress_, out_.cost);
+    for (std::size_t m = 0; m < lit.size(); ++m) out_.materials[m].two_sided = lit[m] != 0;
   }
 
   void report_unknown() {
@@ -284,18 +290,17 @@ class Detector {
           100 * out_.placement));
   }
 
-  Vec3 far_eye(const Vec3& direction) const {
-    return world_.bounds.center() + 10 * world_.bounds.diagonal() * direction;
-  }
-
   const Scene& scene_;
   const World& world_;
   const HostRenderer& host_;
   const DetectParams& params_;
   const Progress& progress_;
   TextureSpace space_;
-  std::vector<float> card_;     ///< per face: brightest white card in its place
-  std::vector<uint8_t> known_;  ///< per face: 1 where it was drawn and its card answers
+  Patches patches_{TextureSpace(), false};
+  std::vector<SurfaceResponse> responses_;  ///< per patch
+  std::vector<uint8_t> drawn_, answered_;   ///< per patch: 1 where it was drawn, where its card answers, too
+  std::vector<float> cards_;                ///< per face: its brightest white card
+  std::vector<uint8_t> known_;              ///< per face: 1 where it was drawn and its card answers
   Detection out_;
 };
 
@@ -313,10 +318,28 @@ const SurfaceResponse& Detection::of(const World& world, uint32_t triangle) cons
   return materials[world.materials[triangle].value].response;
 }
 
+SurfaceResponse Detection::at(const World& world, uint32_t triangle, Vec2 barycentric) const {
+  if (!texels.empty()) {
+    const auto it = std::lower_bound(space.triangles.begin(), space.triangles.end(), triangle);
+    const auto& [a, b, c] = space.corners[static_cast<std::size_t>(it - space.triangles.begin())];
+    if (const auto blend = blend_at(space, a + barycentric.x * (b - a) + barycentric.y * (c - a))) {
+      SurfaceResponse sum;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const SurfaceResponse& r = texels[blend->pixels[k]];
+        sum.emission += blend->weights[k] * r.emission;
+        sum.transmission += blend->weights[k] * r.transmission;
+        sum.reflectance += blend->weights[k] * r.reflectance;
+      }
+      return sum;
+    }
+  }
+  return of(world, triangle);
+}
+
 Detection detect_materials(const Scene& scene, const World& world, const HostRenderer& host,
                            const DetectParams& params, const Progress& progress) {
-  if (params.texels < 1 || params.faces < 1)
-    throw UsageError("material detection", "no texels or no faces", "1 or more of each");
+  if (params.texels < 1 || params.faces < 1 || params.most_texels < 1 || !(params.texel > 0))
+    throw UsageError("material detection", "no texels or no faces", "1 or more of each, larger than 0 m");
   return Detector(scene, world, host, params, progress).run();
 }
 

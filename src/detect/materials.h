@@ -33,10 +33,13 @@ struct DetectedMaterial {
 };
 
 struct DetectParams {
-  /// By material, from its largest faces; or for each face, for renderers whose materials are not uniform.
-  enum class Per : uint8_t { material, face } per = Per::material;
+  /// By material, from its largest faces; or for each face, or each texel of each face, for renderers whose
+  /// materials are not uniform.
+  enum class Per : uint8_t { material, face, texel } per = Per::material;
   int faces = 8;                 ///< per material
   int texels = 8;                ///< a side of each face
+  float texel = 0.05f;           ///< m, by texel: its size
+  int most_texels = 256;         ///< by texel: a side of each face
   float flag_above = 0.02f;      ///< residual; 8-bit targets have a limit of their own where theirs is higher
   float spread_above = 0.1f;     ///< warn where a material's faces differ by more
   float most_reflected = 0.98f;  ///< reflectance + transmission, so that light dies out
@@ -45,6 +48,8 @@ struct DetectParams {
 struct Detection {
   std::vector<DetectedMaterial> materials;  ///< per Scene material
   std::vector<DetectedFace> faces;          ///< that were looked at, by triangle
+  TextureSpace space;                       ///< by texel: where all faces lie, by triangle
+  std::vector<SurfaceResponse> texels;      ///< by texel: per pixel of it; else empty
   std::size_t undrawn = 0;                  ///< faces of them that the renderer did not draw
   /// How far all lights' light on a face depends on where on the target it is drawn, largest share: above a
   /// few per cent the renderer looks lights up by the screen (clusters, tiles) and does not fit.
@@ -54,6 +59,8 @@ struct Detection {
 
   /// Of its face where that was looked at, else of its material.
   const SurfaceResponse& of(const World& world, uint32_t triangle) const;
+  /// Of a point: between texels where those were looked at, else as of().
+  SurfaceResponse at(const World& world, uint32_t triangle, Vec2 barycentric) const;
 };
 
 /// Draws with no light on black and on white, with one light on the faces and on a white card in their place,

@@ -147,6 +147,41 @@ TEST(Materials, FacesOnDemand) {
   EXPECT_GT(found.faces[101].response.reflectance.g, found.faces[100].response.reflectance.g + 0.05f);
 }
 
+// 31, by texel: each has the reflectance that the renderer has in its middle, and between them it is read.
+TEST(Materials, TexelsOnDemand) {
+  Scene scene;
+  const auto paint = add_material(scene, "painted", Rgb(0.5f));
+  add_quad(scene, "wall", paint, Vec3(0), Vec3(2, 0, 0), Vec3(0, 2, 0));
+  add_sphere(scene, "ball", paint, Vec3(0, 0, 4), 1, 4, false);
+  const World world = make_world(scene);
+  SyntheticHost host{world, {{{Rgb(0.1f), Rgb(0.05f), Rgb(0.2f, 0.3f, 0.4f)}}}};
+  host.shift = 1;
+  DetectParams params;
+  params.per = DetectParams::Per::texel;
+  params.texel = 0.1f;
+  for (const TargetFormatRow& row : kTargetFormats) {
+    host.format = row.format;
+    const Detection found = detect_materials(scene, world, host.renderer(), params);
+    ASSERT_EQ(found.texels.size(), found.space.pixels());
+    const float most = row.format == TargetFormat::linear ? 1e-3f : 1.0f / 255;
+    std::size_t checked = 0;
+    for (std::size_t f = 0; f < found.space.triangles.size(); ++f) {
+      const uint32_t t = found.space.triangles[f];
+      const auto& [a, b, c] = found.space.corners[f];
+      const glm::mat2 inverse = glm::inverse(glm::mat2(b - a, c - a));
+      each_pixel(found.space, f, [&](std::size_t pixel) {
+        const Vec2 w = inverse * (pixel_middle(found.space, pixel) - a);
+        const Rgb is = Rgb(0.2f, 0.3f, 0.4f) + Rgb(w.x * w.y * static_cast<float>(t % 2));
+        EXPECT_LT(worst(found.texels[pixel].reflectance, is), most) << row.name << " " << t;
+        EXPECT_LT(worst(found.texels[pixel].transmission, Rgb(0.05f)), most) << row.name << " " << t;
+        EXPECT_LT(worst(found.at(world, t, w).reflectance, found.texels[pixel].reflectance), 1e-5f);
+        ++checked;
+      });
+    }
+    EXPECT_GT(checked, 400u);
+  }
+}
+
 TEST(Materials, RenderersThatLookLightsUpByTheScreenAreTold) {
   const Rig rig;
   SyntheticHost host = rig.host();

@@ -83,14 +83,14 @@ void RealtimeRadiosity::find_faces(const TracedScene& traced) {
     return index;
   };
   const std::vector<uint32_t> fronts = index_of(direct_), backs = index_of(backs_);
-  faces_.assign(op_.lit.size(), kNone);
+  faces_.assign(op_.lit.size(), {});
   blends_.assign(op_.lit.size(), {});
   const float near = 1e-3f * world_.bounds.diagonal();
   std::atomic<std::size_t> uncovered = 0;
   parallel_for(op_.lit.size(), 256, [&](std::size_t i) {
     const Vec3 n = unpack_normal(op_.lit[i].geometric);
     const Hit hit = traced.tracer.closest({offset_origin(position_of(op_.lit[i]), n, n), -n, near});
-    if (hit) faces_[i] = hit.triangle;
+    if (hit) faces_[i] = {hit.triangle, hit.barycentric};
     const TextureSpace& space = hit.back ? backs_ : direct_;
     const uint32_t face = hit ? (hit.back ? backs : fronts)[hit.triangle] : kNone;
     if (face != kNone) {
@@ -135,8 +135,9 @@ void RealtimeRadiosity::set_materials(const Detection& detection) {
   for (std::size_t node = 0; node < albedo_.size(); ++node) {
     Rgb sum;
     for (std::size_t i = points * node; i < points * (node + 1); ++i)
-      sum +=
-          faces_[i] != kNone ? detection.of(world_, faces_[i]).reflectance : unpack_albedo(op_.lit[i].albedo);
+      sum += faces_[i].triangle != kNone
+                 ? detection.at(world_, faces_[i].triangle, faces_[i].barycentric).reflectance
+                 : unpack_albedo(op_.lit[i].albedo);
     sum *= 1 / static_cast<float>(points);
     albedo_[node] = {sum.r, sum.g, sum.b, 0};
   }

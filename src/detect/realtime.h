@@ -35,7 +35,7 @@ class RealtimeRadiosity {
                     HostRenderer host, const Detection& detection, TransferParams params = {},
                     const Progress& progress = {});
 
-  /// Reflectances by face or by material. Without rays: after a change of the renderer's materials, too.
+  /// Reflectances by texel, face or material. Without rays: after a change of the renderer's materials, too.
   void set_materials(const Detection& detection);
   /// Lets the renderer draw its direct light and solves. The first frame after any change has all bounces:
   /// nothing is carried over from frame to frame.
@@ -64,7 +64,11 @@ class RealtimeRadiosity {
   Operator op_;
   std::vector<Rgbx> albedo_;  ///< the operator's, per node
   std::unique_ptr<FoldedBounces> bounces_;
-  std::vector<uint32_t> faces_;     ///< per lit point: its triangle, or kNone
+  struct OnFace {
+    uint32_t triangle = 0xffffffffu;  ///< or none
+    Vec2 barycentric{0};
+  };
+  std::vector<OnFace> faces_;       ///< per lit point: where it is
   std::vector<PixelBlend> blends_;  ///< per lit point: what it reads, of fronts and then of backs
   std::size_t uncovered_ = 0;
   std::vector<Copy> copies_;  ///< texels around receivers

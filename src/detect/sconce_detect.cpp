@@ -82,7 +82,10 @@ struct sconce_gi {
     if (draw == nullptr) throw Error("draw", "is no function");
     if (p.target < SCONCE_TARGET_LINEAR || p.target > SCONCE_TARGET_POWER8)
       throw Error("target", std::to_string(p.target), "SCONCE_TARGET_LINEAR, _SRGB8, _POWER8");
-    detect_params.per = p.by_face != 0 ? DetectParams::Per::face : DetectParams::Per::material;
+    const float texel = p.texel > 0 ? p.texel : world.bounds.diagonal() / 256;
+    if (p.by_face < 0 || p.by_face > 2) throw Error("by_face", std::to_string(p.by_face), "0, 1, 2");
+    detect_params.per = static_cast<DetectParams::Per>(p.by_face);
+    detect_params.texel = texel;
     detection = detect_materials(geometry.scene, world, host, detect_params);
     TransferParams params;
     params.gather = p.samples > 0 ? static_cast<std::size_t>(p.samples) : 16384;
@@ -90,7 +93,6 @@ struct sconce_gi {
     params.keep_sums = true;
     std::vector<uint32_t> all(world.size());
     for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
-    const float texel = p.texel > 0 ? p.texel : world.bounds.diagonal() / 256;
     const TracedScene traced{geometry.scene, world, tracer};
     radiosity = std::make_unique<RealtimeRadiosity>(traced, vertex_receivers(traced),
                                                     face_cells(all, texels_by_area(world, all, texel, 256)),

@@ -49,7 +49,7 @@ typedef int (*sconce_draw)(void* user, const sconce_draw_request* request, void*
 
 typedef struct sconce_gi_params {
   int target;  /* SCONCE_TARGET_... */
-  int by_face; /* 1: materials by face, for renderers whose materials are not uniform */
+  int by_face; /* 1: materials by face, 2: by texel, for renderers whose materials are not uniform */
   int samples; /* of the surfaces, a power of four, 256 to 65536; 0: 16384 */
   int rays;    /* per vertex; 0: 512 */
   float texel; /* m, of direct light; 0: a 256th of the scene's size */

@@ -73,8 +73,7 @@ struct SyntheticHost {
       const glm::mat2 inverse = glm::inverse(glm::mat2(b - a, c - a));
       const bool mirrored = glm::determinant(inverse) < 0;
       each_pixel(space, i, [&](std::size_t pixel) {
-        const Vec2 p(static_cast<float>(pixel % static_cast<std::size_t>(request.width)) + 0.5f,
-                     static_cast<float>(pixel / static_cast<std::size_t>(request.width)) + 0.5f);
+        const Vec2 p = pixel_middle(space, pixel);
         const Vec2 w = inverse * (p - a);
         SyntheticMaterial m = materials[world.materials[t].value];
         m.response.reflectance += Rgb(shift * w.x * w.y * static_cast<float>(t % 2));

@@ -35,6 +35,11 @@ TextureSpace atlas_space(const Atlas& atlas);
 /// The same faces as seen from behind: their corners go round the other way.
 TextureSpace mirrored(TextureSpace space);
 
+inline Vec2 pixel_middle(const TextureSpace& space, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(space.width);
+  return {static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f};
+}
+
 /// Calls f(pixel) for the pixels whose middle lies on a face.
 template <class F>
 void each_pixel(const TextureSpace& space, std::size_t face, F&& f) {
