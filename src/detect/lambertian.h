@@ -12,7 +12,8 @@ struct HeldOut {
 };
 
 /// Predicts emission + reflectance x white card for the largest known face of each material: in the light's
-/// mirror direction, back where it comes from, and at grazing angles.
+/// mirror direction, back where it comes from, and at grazing angles. Texels of curved faces are also
+/// compared with themselves, seen from aside.
 /// @param known  faces with their own response
 /// @param limit  of residuals
 /// @return per material

@@ -80,23 +80,35 @@ class Detector {
     return captured;
   }
 
+  /// Emission is what is seen on black; transmission is the slope over white and, in codes, greys, as of
+  /// reflections.
   void unlit() {
     DrawRequest request;
     request.eye = far_eye(world_, axis_direction(4));
     const std::string on_black = "unlit faces on black", on_white = "unlit faces on white";
-    const Captured black = draw(request, on_black);
-    request.background = 1;
-    const Captured white = draw(request, on_white);
-    check_cleared(space_, black, 0, on_black);
-    check_cleared(space_, white, 1, on_white);
     bool clipped = false;
+    const Captured black = draw(request, on_black);
+    check_cleared(space_, black, 0, on_black);
+    std::vector<Slope> slopes(patches_.size());
     responses_.resize(patches_.size());
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      slopes[p].add(Rgb(), responses_[p].emission = patches_.mean(p, black, clipped));
+    const int backgrounds = host_.format == TargetFormat::linear ? 1 : 24;
+    for (int k = 0; k < backgrounds; ++k) {
+      request.background = k == 0 ? 1 : decode_code(host_.format, static_cast<uint8_t>(255 - 7 * k));
+      const Captured grey = draw(request, on_white);
+      check_cleared(space_, grey, request.background, on_white);
+      for (std::size_t p = 0; p < patches_.size(); ++p) {
+        clipped = false;
+        // What the target cannot hold still tells something where there is nothing else.
+        const Rgb shown = patches_.mean(p, grey, clipped);
+        if (!clipped || k + 1 == backgrounds) slopes[p].add(Rgb(request.background), shown);
+      }
+    }
     for (std::size_t p = 0; p < patches_.size(); ++p) {
-      SurfaceResponse& r = responses_[p];
-      r.emission = patches_.mean(p, black, clipped);
-      const Rgb through = patches_.mean(p, white, clipped) - r.emission;
-      r.transmission = Rgb(std::clamp(through.r, 0.0f, 1.0f), std::clamp(through.g, 0.0f, 1.0f),
-                           std::clamp(through.b, 0.0f, 1.0f));
+      const Rgb through = slopes[p].value();
+      responses_[p].transmission = Rgb(std::clamp(through.r, 0.0f, 1.0f), std::clamp(through.g, 0.0f, 1.0f),
+                                       std::clamp(through.b, 0.0f, 1.0f));
     }
   }
 
@@ -170,7 +182,7 @@ class Detector {
     request.eye =
         far_eye(world_, normalize_or(Frame(request.probe.to_light).x + 0.4f * request.probe.to_light, {}));
     const bool floats = host_.format == TargetFormat::linear;
-    const std::size_t rounds = params_.per == DetectParams::Per::texel ? 3 : 1;
+    const std::size_t rounds = params_.per == DetectParams::Per::texel ? 3 : 2;
     for (std::size_t k = 0; k < (floats ? 1 : rounds * kIntensities.size()); ++k) {
       const auto round = static_cast<float>(k / kIntensities.size());
       request.probe.intensity = kIntensities[k % kIntensities.size()] * (1 - 0.03f * round);
@@ -275,9 +287,21 @@ class Detector {
       DetectedMaterial& material = out_.materials[m];
       material.residual = found[m].residual;
       material.lambertian = found[m].holds;
-      if (!material.lambertian)
-        out_.findings.push_back(
-            fmt::format("{} is not Lambertian: {:.0f} %", scene_.materials[m].name, 100 * material.residual));
+      if (material.lambertian) continue;
+      std::string finding =
+          fmt::format("{} is not Lambertian: {:.0f} %", scene_.materials[m].name, 100 * material.residual);
+      if (params_.lobes) {
+        const DetectedFace& face = *std::find_if(known.begin(), known.end(), [&](const DetectedFace& f) {
+          return world_.materials[f.triangle].value == m;
+        });
+        material.lobe =
+            fit_lobe(world_, host_, face.triangle, face.response.emission, params_.texels, out_.cost);
+        if (material.lobe)
+          finding += fmt::format("; a lobe of {:.2f}, roughness {:.2f}, leaves {:.1f} %",
+                                 luminance(material.lobe->strength), material.lobe->roughness(),
+                                 100 * material.lobe->residual);
+      }
+      out_.findings.push_back(std::move(finding));
     }
   }
 

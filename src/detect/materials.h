@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/progress.h"
-#include "detect/capture.h"
+#include "detect/lobe.h"
 
 namespace sconce {
 
@@ -27,6 +27,7 @@ struct DetectedMaterial {
   float spread = 0;          ///< of reflectance over them, largest distance to the mean
   float residual = 0;        ///< of what it does under held-out lights: share of a white card's light
   bool lambertian = true;    ///< residual below the limit
+  std::optional<Lobe> lobe;  ///< where one was asked for and the material is not Lambertian
   bool two_sided = false;    ///< the renderer lights backs, too; asked where light goes through or both show
 
   bool lets_through() const;  ///< more than rounding makes
@@ -41,6 +42,7 @@ struct DetectParams {
   float texel = 0.05f;           ///< m, by texel: its size
   int most_texels = 256;         ///< by texel: a side of each face
   float flag_above = 0.02f;      ///< residual; 8-bit targets have a limit of their own where theirs is higher
+  bool lobes = false;            ///< fit one to each material that is not Lambertian
   float spread_above = 0.1f;     ///< warn where a material's faces differ by more
   float most_reflected = 0.98f;  ///< reflectance + transmission, so that light dies out
 };

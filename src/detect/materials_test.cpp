@@ -134,6 +134,40 @@ TEST(Materials, ThoseThatShineAreNamed) {
   }
 }
 
+// Phong and Blinn lobes from broad to narrow, found again.
+TEST(Materials, LobesOnDemand) {
+  const Rig rig;
+  DetectParams params;
+  params.lobes = true;
+  for (const TargetFormatRow& row : kTargetFormats) {
+    SyntheticHost host = rig.host(row.format);
+    for (std::size_t m = 0; m < host.materials.size(); m += 3) {
+      host.materials[m].specular = 0.15f + 0.01f * static_cast<float>(m % 10);
+      host.materials[m].shininess = std::pow(2.0f, 3 + static_cast<float>(m % 9) / 1.5f);
+      host.materials[m].halfway = m % 2 == 0;
+    }
+    const Detection found = detect_materials(rig.scene, rig.world, host.renderer(), params);
+    const bool floats = row.format == TargetFormat::linear;
+    for (std::size_t m = 0; m < host.materials.size(); ++m) {
+      EXPECT_EQ(found.materials[m].lobe.has_value(), m % 3 == 0)
+          << row.name << " " << m << ": " << found.materials[m].residual << " "
+          << host.materials[m].shininess;
+      if (!found.materials[m].lobe) continue;
+      const Lobe& lobe = *found.materials[m].lobe;
+      const SyntheticMaterial& is = host.materials[m];
+      EXPECT_EQ(lobe.halfway, is.halfway) << row.name << " " << m;
+      EXPECT_NEAR(lobe.exponent / is.shininess, 1, floats ? 0.01 : 0.15) << row.name << " " << m;
+      EXPECT_LT(worst(lobe.strength, Rgb(is.specular)), floats ? 1e-3f : 0.02f) << row.name << " " << m;
+      EXPECT_LT(worst(lobe.diffuse, is.response.reflectance), floats ? 1e-3f : 0.02f) << row.name << " " << m;
+      EXPECT_LT(lobe.residual, floats ? 1e-3f : 0.02f) << row.name << " " << m;
+    }
+    const auto told = std::find_if(found.findings.begin(), found.findings.end(),
+                                   [](const std::string& f) { return f.find("m0 is not L") == 0; });
+    ASSERT_NE(told, found.findings.end());
+    EXPECT_NE(told->find("; a lobe of 0.15, roughness 0.4"), std::string::npos) << *told;
+  }
+}
+
 TEST(Materials, FacesOnDemand) {
   const Rig rig;
   SyntheticHost host = rig.host();

@@ -162,7 +162,7 @@ TEST(RealtimeRadiosity, BothSidesOfWhatLetsLightThrough) {
   add_sphere(scene, "shell", add_material(scene, "grey", Rgb(0.5f)), Vec3(0), 1, 32, true);
   add_sphere(scene, "glass", add_material(scene, "glass", Rgb(0)), Vec3(0), 0.5f, 32, false);
   const float tau = 0.5f, rho = 0.4f, rho_s = 0.6f;
-  Rig rig(scene, {{{Rgb(), Rgb(), Rgb(rho_s)}}, {{Rgb(), Rgb(tau), Rgb(rho)}, 0, 0, true}},
+  Rig rig(scene, {{{Rgb(), Rgb(), Rgb(rho_s)}}, {.response = {Rgb(), Rgb(tau), Rgb(rho)}, .two_sided = true}},
           {{Vec3(0), Rgb(0.5f)}});
   EXPECT_TRUE(rig.detection.materials[1].two_sided);
   EXPECT_EQ(rig.radiosity.uncovered(), 0u);

@@ -13,6 +13,7 @@ namespace sconce {
 struct SyntheticMaterial {
   SurfaceResponse response;
   float specular = 0, shininess = 0;  ///< a Phong lobe beside it, share of a white card's light
+  bool halfway = false;               ///< the lobe is Blinn's
   bool two_sided = false;             ///< its back is lit, too
 };
 
@@ -43,7 +44,8 @@ struct SyntheticHost {
       Rgb value = rho * cosine;
       if (!request.white_card && m.specular > 0) {
         const Vec3 mirror = 2 * cosine * n - to, eye = glm::normalize(request.eye - at);
-        value += Rgb(m.specular * std::pow(std::max(0.0f, glm::dot(mirror, eye)), m.shininess));
+        const float lobe = m.halfway ? glm::dot(n, glm::normalize(to + eye)) : glm::dot(mirror, eye);
+        value += Rgb(m.specular * std::pow(std::max(0.0f, lobe), m.shininess));
       }
       sum += value * strength * unit;
     };
