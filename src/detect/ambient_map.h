@@ -29,7 +29,7 @@ class AmbientMap {
              const DetectParams& look = {});
 
   /// As RealtimeRadiosity::update(). @pre started
-  FrameReport update() { return radiosity_->update(); }
+  FrameReport update(const FrameBudget& budget = {}) { return radiosity_->update(budget); }
   /// Height x width, to be multiplied by the surface's own reflectance and added.
   std::span<const Rgb> texels() const { return radiosity_->ambient(); }
   /// The same times the reflectance that was detected, of the material, face or texel: for renderers that can

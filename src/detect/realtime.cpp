@@ -145,7 +145,7 @@ void RealtimeRadiosity::set_materials(const Detection& detection) {
   bounces_ = std::make_unique<FoldedBounces>(op_);
 }
 
-FrameReport RealtimeRadiosity::update() {
+FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   FrameReport report;
   DrawRequest request;
   request.lights = DrawRequest::Lights::all;
@@ -181,11 +181,32 @@ FrameReport RealtimeRadiosity::update() {
     light[slot] = {sum.r, sum.g, sum.b, 0};
   });
   report.clipped = clipped;
-  bounces_->indirect(light, indirect_);
-  for (std::size_t i = 0; i < indirect_.size(); ++i) ambient_[op_.places[i]] = indirect_[i];
+  bounces_->apply(light);
+  const auto passed = [&] {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  };
+  if (budget.receivers >= indirect_.size() && !(budget.milliseconds < 1e30)) {
+    multiply(op_.gather, light, indirect_);
+    gradual_.reset();
+  } else {
+    if (gradual_ == nullptr) gradual_ = std::make_unique<GradualRows>(op_.gather), lit_.clear();
+    if (light != lit_) lit_ = std::move(light), gradual_->start(lit_, indirect_);
+    // By time in small steps, so that the last is not far beyond it.
+    const std::size_t step = std::size_t{128} * op_.gather.cluster;
+    for (std::size_t left = budget.receivers; gradual_->left() > 0;) {
+      const std::size_t before = gradual_->left();
+      gradual_->refine(lit_, std::min(left, step), indirect_);
+      left -= std::min(left, before - gradual_->left());
+      if (left < op_.gather.cluster || passed() > budget.milliseconds) break;
+    }
+    report.coarse = gradual_->left();
+  }
+  for (std::size_t i = 0; i < indirect_.size(); ++i) {
+    const Rgb& e = indirect_[i];
+    ambient_[op_.places[i]] = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+  }
   for (const Copy& copy : copies_) ambient_[copy.to] = ambient_[copy.from];
-  report.solve_milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  report.solve_milliseconds = passed();
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include "detect/materials.h"
 #include "relight/precompute.h"
 #include "transfer/folded_bounces.h"
+#include "transfer/gradual_rows.h"
 
 namespace sconce {
 
@@ -16,9 +17,17 @@ struct FrameReport {
   std::string fault;  ///< of the renderer; empty: none. Else the ambient term is 0: it goes on without
   CaptureCost capture;
   double solve_milliseconds = 0;
+  std::size_t coarse = 0;   ///< receivers whose light is right only in the mean of their cluster, so far
   std::size_t clipped = 0;  ///< points whose light is brighter than the target can hold
 
   explicit operator bool() const { return fault.empty(); }
+};
+
+/// What a frame may cost beside the renderer's drawing and the bounces: after either at least one cluster of
+/// receivers ends the frame.
+struct FrameBudget {
+  std::size_t receivers = static_cast<std::size_t>(-1);  ///< the same light on any machine
+  double milliseconds = 1e30;
 };
 
 /// Light is in the renderer's unit: 1 is what it shows as 1. A surface shows
@@ -38,8 +47,10 @@ class RealtimeRadiosity {
   /// Reflectances by texel, face or material. Without rays: after a change of the renderer's materials, too.
   void set_materials(const Detection& detection);
   /// Lets the renderer draw its direct light and solves. The first frame after any change has all bounces:
-  /// nothing is carried over from frame to frame.
-  FrameReport update();
+  /// nothing is carried over from frame to frame. Within a budget, all clusters of receivers have the right
+  /// mean in each frame; how light differs within them follows, some clusters a frame, as long as light
+  /// rests.
+  FrameReport update(const FrameBudget& budget = {});
 
   /// Light by reflection, per texel (page x height x width + y x width + x; those around receivers have their
   /// neighbours') or vertex, linear. To be multiplied by the surface's own reflectance and added.
@@ -64,6 +75,8 @@ class RealtimeRadiosity {
   Operator op_;
   std::vector<Rgbx> albedo_;  ///< the operator's, per node
   std::unique_ptr<FoldedBounces> bounces_;
+  std::unique_ptr<GradualRows> gradual_;  ///< made by the first budget
+  std::vector<Rgbx> lit_;                 ///< coefficients that it is at
   struct OnFace {
     uint32_t triangle = 0xffffffffu;  ///< or none
     Vec2 barycentric{0};
@@ -71,8 +84,8 @@ class RealtimeRadiosity {
   std::vector<OnFace> faces_;       ///< per lit point: where it is
   std::vector<PixelBlend> blends_;  ///< per lit point: what it reads, of fronts and then of backs
   std::size_t uncovered_ = 0;
-  std::vector<Copy> copies_;  ///< texels around receivers
-  std::vector<Rgb> indirect_, ambient_;
+  std::vector<Copy> copies_;             ///< texels around receivers
+  std::vector<Rgb> indirect_, ambient_;  ///< the former may be below 0
 };
 
 }  // namespace sconce

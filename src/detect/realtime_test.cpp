@@ -122,6 +122,40 @@ TEST_F(InABall, AnswersAtOnce) {
   EXPECT_EQ(rig.mean(), 0);
 }
 
+// Within a budget: the right energy in every frame, and the whole answer as soon as light has rested.
+TEST_F(InABall, RefinesWhileLightRests) {
+  const auto frame = [&](const Vec3& lamp, const FrameBudget& budget) {
+    rig.host.lamps = {{lamp, Rgb(1)}};
+    const FrameReport report = rig.radiosity.update(budget);
+    EXPECT_TRUE(report);
+    return report.coarse;
+  };
+  const auto answer = [&] {
+    return std::vector<Rgb>(rig.radiosity.ambient().begin(), rig.radiosity.ambient().end());
+  };
+  const FrameBudget cluster{64};
+  for (const Vec3 lamp : {Vec3(-0.4f, 0.2f, 0), Vec3(0, -0.5f, 0.3f), Vec3(0)}) {
+    frame(lamp, {});
+    const double mean = rig.mean();
+    const std::vector<Rgb> whole = answer();
+    frame(-lamp + Vec3(0.1f), {});
+    std::size_t left = whole.size();
+    for (std::size_t frames = 1; left > 0; ++frames) {
+      const std::size_t coarse = frame(lamp, cluster);
+      ASSERT_EQ(coarse, std::max(rig.radiosity.transfer().gather.rows, 64 * static_cast<uint32_t>(frames)) -
+                            64 * frames);
+      left = coarse;
+      EXPECT_NEAR(rig.mean() / mean, 1, 1e-4) << frames;
+      EXPECT_EQ(answer() == whole, left == 0);
+    }
+  }
+  // Out of the dark, and without any time.
+  rig.host.lamps.clear();
+  ASSERT_TRUE(rig.radiosity.update());
+  frame(Vec3(0), {.milliseconds = 0});
+  EXPECT_NEAR(rig.mean(), 0.7 * 0.7 / 0.3, 0.05);
+}
+
 // 33. Another light model changes what is captured, and with that the answer; nothing is made again.
 TEST_F(InABall, FollowsTheRenderersShaders) {
   ASSERT_TRUE(rig.radiosity.update());

@@ -91,6 +91,7 @@ struct sconce_gi {
     params.gather = p.samples > 0 ? static_cast<std::size_t>(p.samples) : 16384;
     if (p.rays > 0) params.rays = p.rays;
     params.keep_sums = true;
+    if (p.milliseconds > 0) budget.milliseconds = static_cast<double>(p.milliseconds);
     std::vector<uint32_t> all(world.size());
     for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
     const TracedScene traced{geometry.scene, world, tracer};
@@ -141,6 +142,7 @@ struct sconce_gi {
   std::size_t vertex_count;
   HostRenderer host;
   DetectParams detect_params;
+  FrameBudget budget;
   Detection detection;
   std::unique_ptr<RealtimeRadiosity> radiosity;
 };
@@ -186,8 +188,9 @@ int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size) {
 }
 
 int sconce_gi_update(sconce_gi* gi, float* ambient, sconce_frame* frame, char* message, size_t message_size) {
-  const FrameReport report = gi->radiosity->update();
-  if (frame != nullptr) *frame = {report.capture.milliseconds, report.solve_milliseconds, report.clipped};
+  const FrameReport report = gi->radiosity->update(gi->budget);
+  if (frame != nullptr)
+    *frame = {report.capture.milliseconds, report.solve_milliseconds, report.coarse, report.clipped};
   std::fill(ambient, ambient + 3 * gi->vertex_count, 0.0f);
   const std::span<const Rgb> light = gi->radiosity->ambient();
   // A vertex that several materials use has the light of the last of them.

@@ -48,11 +48,12 @@ typedef struct sconce_draw_request {
 typedef int (*sconce_draw)(void* user, const sconce_draw_request* request, void* pixels);
 
 typedef struct sconce_gi_params {
-  int target;  /* SCONCE_TARGET_... */
-  int by_face; /* 1: materials by face, 2: by texel, for renderers whose materials are not uniform */
-  int samples; /* of the surfaces, a power of four, 256 to 65536; 0: 16384 */
-  int rays;    /* per vertex; 0: 512 */
-  float texel; /* m, of direct light; 0: a 256th of the scene's size */
+  int target;         /* SCONCE_TARGET_... */
+  int by_face;        /* 1: materials by face, 2: by texel, for renderers whose materials are not uniform */
+  int samples;        /* of the surfaces, a power of four, 256 to 65536; 0: 16384 */
+  int rays;           /* per vertex; 0: 512 */
+  float milliseconds; /* of solving per frame, the rest follows while light rests; 0: all at once */
+  float texel;        /* m, of direct light; 0: a 256th of the scene's size */
 } sconce_gi_params;
 
 typedef struct sconce_material {
@@ -65,6 +66,7 @@ typedef struct sconce_material {
 typedef struct sconce_frame {
   double capture_milliseconds; /* in the renderer, reading back included */
   double solve_milliseconds;
+  size_t coarse;  /* vertices whose light is right only in the mean of many, so far */
   size_t clipped; /* points brighter than the target can hold */
 } sconce_frame;
 

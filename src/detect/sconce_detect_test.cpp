@@ -54,7 +54,7 @@ TEST(DetectInC, Furnace) {
   sconce_geometry geometry{
       &host.world.positions[0].x, &host.world.normals[0].x, host.world.positions.size(), indices.data(),
       materials.data(),           host.world.size()};
-  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0.1f};
+  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0, 0.1f};
   char message[256] = "";
   sconce_gi* gi = sconce_gi_create(&geometry, CHost::draw, &host, &params, message, sizeof message);
   ASSERT_NE(gi, nullptr) << message;
