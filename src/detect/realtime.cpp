@@ -29,10 +29,9 @@ TransferParams with_transmission(TransferParams params, const Detection& detecti
   return params;
 }
 
-/// Follows rays in a scene of the materials that were found: rows are fitted to light that they reflect. What
-/// lets light through has two sides.
-Operator followed(const TracedScene& traced, const RelightReceivers& receivers, const Detection& detection,
-                  TransferParams params, const Progress& progress) {
+/// The materials that were found: rows are fitted to light that they reflect. What lets light through has two
+/// sides.
+Scene found_scene(const TracedScene& traced, const Detection& detection) {
   constexpr float kLeast = 0.5f;  // of black surfaces that shine, or their light would be no light to fit to
   Scene found = with_detected(traced.scene, detection);
   for (std::size_t m = 0; m < found.materials.size(); ++m) {
@@ -42,8 +41,7 @@ Operator followed(const TracedScene& traced, const RelightReceivers& receivers, 
     if (is.response.emission.max() > 0 && material.base_color.max() < kLeast)
       material.base_color = Rgb(kLeast);
   }
-  return make_operator({found, traced.world, traced.tracer}, receivers,
-                       with_transmission(std::move(params), detection), {}, {progress, nullptr});
+  return found;
 }
 
 }  // namespace
@@ -52,16 +50,50 @@ RealtimeRadiosity::RealtimeRadiosity(const TracedScene& traced, const RelightRec
                                      TextureSpace direct, HostRenderer host, const Detection& detection,
                                      TransferParams params, const Progress& progress)
     : world_(traced.world),
+      tracer_(traced.tracer),
       direct_(std::move(direct)),
       host_(std::move(host)),
-      op_(followed(traced, receivers, detection, std::move(params), progress)),
-      indirect_(op_.gather.rows),
-      ambient_(static_cast<std::size_t>(op_.width) * static_cast<std::size_t>(op_.height) *
-               static_cast<std::size_t>(op_.pages)) {
+      detection_(detection) {
   find_backs(detection);
-  find_faces(traced);
-  if (op_.kind == OperatorReceivers::texels) find_copies();
-  set_materials(detection);
+  params = with_transmission(std::move(params), detection);
+  const Scene found = found_scene(traced, detection);
+  const TracedScene seen{found, world_, tracer_};
+  Operator op;
+  if (params.movable) {
+    check(params);
+    parts_ = std::make_unique<OperatorParts>(seen, receivers, params, "", TransferWork{progress, nullptr});
+    op = parts_->make({progress, nullptr});
+  } else {
+    op = make_operator(seen, receivers, params, {}, {progress, nullptr});
+  }
+  now_ = make_solver(std::move(op), detection);
+  indirect_.resize(now_->op.gather.rows);
+  ambient_.resize(static_cast<std::size_t>(now_->op.width) * static_cast<std::size_t>(now_->op.height) *
+                  static_cast<std::size_t>(now_->op.pages));
+  if (now_->op.kind == OperatorReceivers::texels) find_copies();
+}
+
+std::unique_ptr<RealtimeRadiosity::Solver> RealtimeRadiosity::make_solver(Operator op,
+                                                                          const Detection& detection) const {
+  auto solver = std::make_unique<Solver>();
+  solver->op = std::move(op);
+  find_faces(*solver);
+  set_albedo(*solver, detection);
+  return solver;
+}
+
+void RealtimeRadiosity::follow() {
+  if (parts_ == nullptr)
+    throw UsageError("things that move", "an operator that stays", "TransferParams::movable");
+  wait();
+  next_ = std::async(std::launch::async,
+                     [this, detection = detection_] { return make_solver(parts_->follow({}), detection); });
+}
+
+void RealtimeRadiosity::wait() {
+  if (!next_.valid()) return;
+  now_ = next_.get();
+  gradual_.reset();
 }
 
 void RealtimeRadiosity::find_backs(const Detection& detection) {
@@ -76,50 +108,51 @@ void RealtimeRadiosity::find_backs(const Detection& detection) {
 }
 
 // The operator knows its points by place alone; a ray from just above finds the face again.
-void RealtimeRadiosity::find_faces(const TracedScene& traced) {
+void RealtimeRadiosity::find_faces(Solver& solver) const {
   const auto index_of = [&](const TextureSpace& space) {
     std::vector<uint32_t> index(world_.size(), kNone);
     for (uint32_t i = 0; i < space.triangles.size(); ++i) index[space.triangles[i]] = i;
     return index;
   };
   const std::vector<uint32_t> fronts = index_of(direct_), backs = index_of(backs_);
-  faces_.assign(op_.lit.size(), {});
-  blends_.assign(op_.lit.size(), {});
+  solver.faces.assign(solver.op.lit.size(), {});
+  solver.blends.assign(solver.op.lit.size(), {});
   const float near = 1e-3f * world_.bounds.diagonal();
   std::atomic<std::size_t> uncovered = 0;
-  parallel_for(op_.lit.size(), 256, [&](std::size_t i) {
-    const Vec3 n = unpack_normal(op_.lit[i].geometric);
-    const Hit hit = traced.tracer.closest({offset_origin(position_of(op_.lit[i]), n, n), -n, near});
-    if (hit) faces_[i] = {hit.triangle, hit.barycentric};
+  parallel_for(solver.op.lit.size(), 256, [&](std::size_t i) {
+    const Vec3 n = unpack_normal(solver.op.lit[i].geometric);
+    const Hit hit = tracer_.closest({offset_origin(position_of(solver.op.lit[i]), n, n), -n, near});
+    if (hit) solver.faces[i] = {hit.triangle, hit.barycentric};
     const TextureSpace& space = hit.back ? backs_ : direct_;
     const uint32_t face = hit ? (hit.back ? backs : fronts)[hit.triangle] : kNone;
     if (face != kNone) {
       const auto& [a, b, c] = space.corners[face];
       if (const auto blend = blend_at(space, a + hit.barycentric.x * (b - a) + hit.barycentric.y * (c - a))) {
-        blends_[i] = *blend;
+        solver.blends[i] = *blend;
         if (hit.back)
-          for (uint32_t& pixel : blends_[i].pixels) pixel += static_cast<uint32_t>(direct_.pixels());
+          for (uint32_t& pixel : solver.blends[i].pixels) pixel += static_cast<uint32_t>(direct_.pixels());
         return;
       }
     }
     ++uncovered;
   });
-  uncovered_ = uncovered;
+  solver.uncovered = uncovered;
 }
 
 void RealtimeRadiosity::find_copies() {
-  const int rows = op_.height * op_.pages;
+  const Operator& op = now_->op;
+  const int rows = op.height * op.pages;
   std::vector<uint32_t> from(ambient_.size(), kNone);
-  std::vector<uint32_t> front(op_.places.begin(), op_.places.end());
+  std::vector<uint32_t> front(op.places.begin(), op.places.end());
   for (const uint32_t place : front) from[place] = place;
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<uint32_t> next;
     for (const uint32_t place : front)
       for (int k = 0; k < 9; ++k) {
-        const int x = static_cast<int>(place) % op_.width + k % 3 - 1,
-                  y = static_cast<int>(place) / op_.width + k / 3 - 1;
-        if (x < 0 || y < 0 || x >= op_.width || y >= rows) continue;
-        const auto to = static_cast<uint32_t>(y * op_.width + x);
+        const int x = static_cast<int>(place) % op.width + k % 3 - 1,
+                  y = static_cast<int>(place) / op.width + k / 3 - 1;
+        if (x < 0 || y < 0 || x >= op.width || y >= rows) continue;
+        const auto to = static_cast<uint32_t>(y * op.width + x);
         if (from[to] != kNone) continue;
         from[to] = from[place];
         copies_.push_back({to, from[place]});
@@ -130,23 +163,33 @@ void RealtimeRadiosity::find_copies() {
 }
 
 void RealtimeRadiosity::set_materials(const Detection& detection) {
-  albedo_.resize(op_.albedo.size());
-  const std::size_t points = op_.lit.size() / albedo_.size();
-  for (std::size_t node = 0; node < albedo_.size(); ++node) {
+  wait();
+  detection_ = detection;
+  set_albedo(*now_, detection);
+}
+
+void RealtimeRadiosity::set_albedo(Solver& solver, const Detection& detection) const {
+  solver.albedo.resize(solver.op.albedo.size());
+  const std::size_t points = solver.op.lit.size() / solver.albedo.size();
+  for (std::size_t node = 0; node < solver.albedo.size(); ++node) {
     Rgb sum;
     for (std::size_t i = points * node; i < points * (node + 1); ++i)
-      sum += faces_[i].triangle != kNone
-                 ? detection.at(world_, faces_[i].triangle, faces_[i].barycentric).reflectance
-                 : unpack_albedo(op_.lit[i].albedo);
+      sum += solver.faces[i].triangle != kNone
+                 ? detection.at(world_, solver.faces[i].triangle, solver.faces[i].barycentric).reflectance
+                 : unpack_albedo(solver.op.lit[i].albedo);
     sum *= 1 / static_cast<float>(points);
-    albedo_[node] = {sum.r, sum.g, sum.b, 0};
+    solver.albedo[node] = {sum.r, sum.g, sum.b, 0};
   }
-  op_.albedo = albedo_;
-  bounces_ = std::make_unique<FoldedBounces>(op_);
+  solver.op.albedo = solver.albedo;
+  solver.bounces = std::make_unique<FoldedBounces>(solver.op);
 }
 
 FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   FrameReport report;
+  if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) wait();
+  report.following = next_.valid();
+  const Operator& op = now_->op;
+  const std::vector<PixelBlend>& blends = now_->blends;
   DrawRequest request;
   request.lights = DrawRequest::Lights::all;
   Captured direct;
@@ -162,18 +205,18 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
 
   const auto start = std::chrono::steady_clock::now();
   // What is drawn has its reflectance and its emission in it already: it is all that leaves the surface.
-  std::vector<Rgbx> light(op_.slots());
+  std::vector<Rgbx> light(op.slots());
   std::atomic<std::size_t> clipped = 0;
-  const std::size_t points = op_.points_per_slot;
+  const std::size_t points = op.points_per_slot;
   parallel_for(light.size(), 256, [&](std::size_t slot) {
     Rgb sum;
     for (std::size_t i = points * slot; i < points * (slot + 1); ++i) {
       bool bright = false;
       for (std::size_t k = 0; k < 4; ++k) {
-        const float weight = blends_[i].weights[k];
+        const float weight = blends[i].weights[k];
         if (weight == 0) continue;
-        sum += weight * direct.light[blends_[i].pixels[k]];
-        bright = bright || direct.is_clipped(blends_[i].pixels[k]);
+        sum += weight * direct.light[blends[i].pixels[k]];
+        bright = bright || direct.is_clipped(blends[i].pixels[k]);
       }
       if (bright) ++clipped;
     }
@@ -181,29 +224,29 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
     light[slot] = {sum.r, sum.g, sum.b, 0};
   });
   report.clipped = clipped;
-  bounces_->apply(light);
+  now_->bounces->apply(light);
   const auto passed = [&] {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   };
   if (budget.receivers >= indirect_.size() && !(budget.milliseconds < 1e30)) {
-    multiply(op_.gather, light, indirect_);
+    multiply(op.gather, light, indirect_);
     gradual_.reset();
   } else {
-    if (gradual_ == nullptr) gradual_ = std::make_unique<GradualRows>(op_.gather), lit_.clear();
+    if (gradual_ == nullptr) gradual_ = std::make_unique<GradualRows>(op.gather), lit_.clear();
     if (light != lit_) lit_ = std::move(light), gradual_->start(lit_, indirect_);
     // By time in small steps, so that the last is not far beyond it.
-    const std::size_t step = std::size_t{128} * op_.gather.cluster;
+    const std::size_t step = std::size_t{128} * op.gather.cluster;
     for (std::size_t left = budget.receivers; gradual_->left() > 0;) {
       const std::size_t before = gradual_->left();
       gradual_->refine(lit_, std::min(left, step), indirect_);
       left -= std::min(left, before - gradual_->left());
-      if (left < op_.gather.cluster || passed() > budget.milliseconds) break;
+      if (left < op.gather.cluster || passed() > budget.milliseconds) break;
     }
     report.coarse = gradual_->left();
   }
   for (std::size_t i = 0; i < indirect_.size(); ++i) {
     const Rgb& e = indirect_[i];
-    ambient_[op_.places[i]] = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
+    ambient_[op.places[i]] = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
   }
   for (const Copy& copy : copies_) ambient_[copy.to] = ambient_[copy.from];
   report.solve_milliseconds = passed();

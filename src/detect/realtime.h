@@ -3,10 +3,11 @@
 // bounces come by the transfer operator, and what returns is an ambient term (Hrbek 2006, step three).
 #pragma once
 
+#include <future>
 #include <memory>
 
 #include "detect/materials.h"
-#include "relight/precompute.h"
+#include "relight/operator_parts.h"
 #include "transfer/folded_bounces.h"
 #include "transfer/gradual_rows.h"
 
@@ -18,6 +19,7 @@ struct FrameReport {
   CaptureCost capture;
   double solve_milliseconds = 0;
   std::size_t coarse = 0;   ///< receivers whose light is right only in the mean of their cluster, so far
+  bool following = false;   ///< things moved, and rows are still being made for their new places
   std::size_t clipped = 0;  ///< points whose light is brighter than the target can hold
 
   explicit operator bool() const { return fault.empty(); }
@@ -51,41 +53,59 @@ class RealtimeRadiosity {
   /// mean in each frame; how light differs within them follows, some clusters a frame, as long as light
   /// rests.
   FrameReport update(const FrameBudget& budget = {});
+  /// After triangles moved in the World, and the Tracer was made anew at its place: makes those rows again
+  /// that saw them, in the background. Until then update() answers with the old ones, and says so; the World
+  /// and the Tracer must rest. @pre TransferParams::movable; as many vertices as before. @throws UsageError,
+  /// as OperatorParts::follow()
+  void follow();
+  bool following() const { return next_.valid(); }
+  /// Waits until it is done.
+  void wait();
 
   /// Light by reflection, per texel (page x height x width + y x width + x; those around receivers have their
   /// neighbours') or vertex, linear. To be multiplied by the surface's own reflectance and added.
   std::span<const Rgb> ambient() const { return ambient_; }
-  const Operator& transfer() const { return op_; }
+  const Operator& transfer() const { return now_->op; }
   const TextureSpace& direct_space() const { return direct_; }
   /// Points that stand for the light of the surfaces, and those of them that no drawn face covers: black.
-  std::size_t points() const { return blends_.size(); }
-  std::size_t uncovered() const { return uncovered_; }
+  std::size_t points() const { return now_->blends.size(); }
+  std::size_t uncovered() const { return now_->uncovered; }
 
  private:
   struct Copy {
     uint32_t to, from;
   };
-  void find_backs(const Detection& detection);
-  void find_faces(const TracedScene& traced);
-  void find_copies();
-
-  const World& world_;
-  TextureSpace direct_, backs_;  ///< fronts, and faces whose backs the renderer lights
-  HostRenderer host_;
-  Operator op_;
-  std::vector<Rgbx> albedo_;  ///< the operator's, per node
-  std::unique_ptr<FoldedBounces> bounces_;
-  std::unique_ptr<GradualRows> gradual_;  ///< made by the first budget
-  std::vector<Rgbx> lit_;                 ///< coefficients that it is at
   struct OnFace {
     uint32_t triangle = 0xffffffffu;  ///< or none
     Vec2 barycentric{0};
   };
-  std::vector<OnFace> faces_;       ///< per lit point: where it is
-  std::vector<PixelBlend> blends_;  ///< per lit point: what it reads, of fronts and then of backs
-  std::size_t uncovered_ = 0;
-  std::vector<Copy> copies_;             ///< texels around receivers
-  std::vector<Rgb> indirect_, ambient_;  ///< the former may be below 0
+  /// The operator, and how it sees the renderer's drawings.
+  struct Solver {
+    Operator op;
+    std::vector<Rgbx> albedo;  ///< the operator's, per node
+    std::unique_ptr<FoldedBounces> bounces;
+    std::vector<OnFace> faces;       ///< per lit point: where it is
+    std::vector<PixelBlend> blends;  ///< per lit point: what it reads, of fronts and then of backs
+    std::size_t uncovered = 0;
+  };
+  std::unique_ptr<Solver> make_solver(Operator op, const Detection& detection) const;
+  void find_faces(Solver& solver) const;
+  void set_albedo(Solver& solver, const Detection& detection) const;
+  void find_backs(const Detection& detection);
+  void find_copies();
+
+  const World& world_;
+  const Tracer& tracer_;
+  TextureSpace direct_, backs_;  ///< fronts, and faces whose backs the renderer lights
+  HostRenderer host_;
+  Detection detection_;
+  std::unique_ptr<OperatorParts> parts_;  ///< of what may move
+  std::unique_ptr<Solver> now_;
+  std::unique_ptr<GradualRows> gradual_;       ///< made by the first budget
+  std::vector<Rgbx> lit_;                      ///< coefficients that it is at
+  std::vector<Copy> copies_;                   ///< texels around receivers
+  std::vector<Rgb> indirect_, ambient_;        ///< the former may be below 0
+  std::future<std::unique_ptr<Solver>> next_;  ///< last: what it uses lives as long
 };
 
 }  // namespace sconce

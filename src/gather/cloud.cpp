@@ -100,6 +100,55 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
   progress.at("gather cloud", 3, 3);
 }
 
+std::vector<uint8_t> GatherCloud::follow(const Tracer& tracer, std::span<Bounds> boxes) {
+  const auto inside = [&](const Vec3& p, float more) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
+      return glm::all(glm::greaterThanEqual(p, box.lo - more)) &&
+             glm::all(glm::lessThanEqual(p, box.hi + more));
+    });
+  };
+  // As far as samples speak, and how high what is between is looked for (owners.cpp).
+  constexpr float kReach = 4;
+  const Samples& old = *ownership_.samples;
+  std::vector<SurfacePoint> points;
+  std::vector<float> spacings;
+  float reach = 0;
+  for (std::size_t s = 0; s < old.size(); ++s) {
+    points.push_back(cells_.middle(*world_, ownership_.seeds[s]));
+    spacings.push_back(old.spacing(s));
+    if (inside(points[s].position, kReach * spacings[s])) reach = std::max(reach, kReach * spacings[s]);
+  }
+  for (Bounds& box : boxes) box.lo -= reach, box.hi += reach;
+  ownership_.samples = std::make_unique<Samples>(tracer, std::move(points), std::move(spacings));
+  const Samples& samples = *ownership_.samples;
+
+  parallel_for(cells_.size(), 256, [&](std::size_t c) {
+    const auto cell = static_cast<uint32_t>(c);
+    const SurfacePoint at = cells_.middle(*world_, cell);
+    Owner& owner = ownership_.owners[c];
+    if (!inside(at.position, 0) && !inside(samples[owner.sample].position, 0)) return;
+    if (ownership_.seeds[owner.sample] != cell && !samples.fits(at, owner.sample)) {
+      const auto other = samples.find(at);
+      owner.sample = other ? *other : samples.nearest(at);
+      if (!other) {
+        owner.trust = Trust::guess;
+        return;
+      }
+    }
+    owner.trust = trust(*world_, tracer, cells_, cell, samples[owner.sample]);
+  });
+
+  const std::vector<uint32_t> first = first_, owned = owned_;
+  collect();
+  std::vector<uint8_t> changed(samples.size());
+  for (std::size_t s = 0; s < changed.size(); ++s) {
+    const std::span before(owned.data() + first[s], owned.data() + first[s + 1]), now = this->owned(s);
+    changed[s] =
+        inside(samples[s].position, 0) || !std::equal(before.begin(), before.end(), now.begin(), now.end());
+  }
+  return changed;
+}
+
 void GatherCloud::collect() {
   const std::size_t n = ownership_.samples->size();
   // Cells in part hidden from their sample (below furniture, beyond a wall) would darken it: where rays end,
@@ -115,6 +164,7 @@ void GatherCloud::collect() {
   areas_.assign(n, 0);
   albedos_.assign(n, Rgb());
   std::vector<uint32_t> cursor(first_.begin(), first_.end() - 1);
+  shares_ = {};
   double all = 0;
   for (uint32_t c = 0; c < cells_.size(); ++c) {
     const Owner& owner = ownership_.owners[c];

@@ -24,6 +24,14 @@ class GatherCloud {
               const ReceiverSource& receivers, const CloudParams& params, const Progress& progress = {},
               const Ranks& ranks = {});
 
+  /// After triangles moved, in the World that it was made for: samples and cells move along. Where boxes are,
+  /// other samples may speak for cells; there are no new ones.
+  /// @param tracer  made anew, at the old one's place
+  /// @param boxes   around what moved, before and after; made larger here, so that nothing changed that is
+  /// outside
+  /// @return per sample: 1 where it may have changed
+  std::vector<uint8_t> follow(const Tracer& tracer, std::span<Bounds> boxes);
+
   std::size_t size() const { return areas_.size(); }
   std::size_t cells() const { return cells_.size(); }
   bool reflects(const Hit& hit) const { return cells_.reflects(side_index(hit.triangle, hit.back)); }

@@ -46,7 +46,15 @@ bool may_speak(const Tracer& tracer, const SurfacePoint& at, const SurfacePoint&
          sees(tracer, at, sample);
 }
 
-/// Of a cell whose middle fits: whether its corners see the sample too.
+float median(std::vector<float> values) {
+  if (values.empty()) return 1;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
 Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells, uint32_t cell,
             const SurfacePoint& sample) {
   const SurfacePoint middle = cells.middle(world, cell);
@@ -58,15 +66,6 @@ Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells,
   }
   return Trust::whole;
 }
-
-float median(std::vector<float> values) {
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 /// Samples as points (place, scale x normal).
 struct Samples::Tree {
@@ -166,10 +165,12 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
       owner.sample = static_cast<uint32_t>(points.size());
       points.push_back(at);
       around.push_back(spacings[cell]);
+      seeds.push_back(cell);
     }
     owner.trust = trust(world, tracer, cells, cell, points[owner.sample]);
   }
-  return {std::make_unique<Samples>(tracer, std::move(points), std::move(around)), std::move(owners)};
+  return {std::make_unique<Samples>(tracer, std::move(points), std::move(around)), std::move(seeds),
+          std::move(owners)};
 }
 
 }  // namespace sconce

@@ -56,8 +56,13 @@ class Samples {
 
 struct Ownership {
   std::unique_ptr<Samples> samples;
-  std::vector<Owner> owners;  ///< per cell
+  std::vector<uint32_t> seeds;  ///< per sample: the cell in whose middle it stands
+  std::vector<Owner> owners;    ///< per cell
 };
+
+/// How far a cell is a sample's that fits its middle.
+Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells, uint32_t cell,
+            const SurfacePoint& sample);
 
 /// Gives every cell the nearest sample that fits. Cells that find none become samples where enough light
 /// falls on them, and otherwise take the nearest as a guess.

@@ -55,11 +55,31 @@ OperatorStart::OperatorStart(const TracedScene& traced, const RelightReceivers& 
   cloud = make_cloud_of(traced.scene, traced.world, traced.tracer, receivers.source, params.gather,
                         params.seed, progress);
   progress.check();
+  // Of what may move, all: what is hidden today may be seen then.
   const std::vector<uint8_t> seen =
-      seen_samples(traced.world, traced.tracer, *cloud, receivers.source, params.seed);
+      params.movable ? std::vector<uint8_t>(cloud->size(), 1)
+                     : seen_samples(traced.world, traced.tracer, *cloud, receivers.source, params.seed);
   progress.check();
   square = make_cloud_square(*cloud, params.gather, seen, diagonal);
+  place_middles(receivers);
+  progress.check();
+  order = cluster_order(middles, leaf, diagonal);
+  place_points(receivers, params);
 
+  op.kind = receivers.kind;
+  op.width = receivers.width, op.height = receivers.height, op.pages = receivers.pages;
+  op.camera = receivers.camera.name;
+  op.camera_frame = receivers.camera.frame;
+  op.camera_yfov = receivers.camera.yfov;
+}
+
+void OperatorStart::place_middles(const RelightReceivers& receivers) {
+  middles.resize(receivers.source.count);
+  parallel_for(middles.size(), 256,
+               [&](std::size_t i) { middles[i] = receivers.source.footprint(i).sample(Vec2(0.5f)); });
+}
+
+void OperatorStart::place_points(const RelightReceivers& receivers, const TransferParams& params) {
   const auto owned = std::make_shared<OwnedPoints>();
   const auto points = static_cast<uint32_t>(params.points);
   owned->lit.resize(points * params.gather);
@@ -67,26 +87,20 @@ OperatorStart::OperatorStart(const TracedScene& traced, const RelightReceivers& 
     light_points(*cloud, square, static_cast<uint32_t>(slot), points, params.seed,
                  &owned->lit[points * slot]);
   });
-  middles.resize(receivers.source.count);
-  parallel_for(middles.size(), 256,
-               [&](std::size_t i) { middles[i] = receivers.source.footprint(i).sample(Vec2(0.5f)); });
-  progress.check();
-  order = cluster_order(middles, leaf, diagonal);
   owned->receivers.resize(order.size());
   owned->places.resize(order.size());
   parallel_for(order.size(), 256, [&](std::size_t i) {
     owned->receivers[i] = pack(middle(i), receivers.albedo(order[i]));
     owned->places[i] = receivers.places[order[i]];
   });
-
-  op.kind = receivers.kind;
-  op.width = receivers.width, op.height = receivers.height, op.pages = receivers.pages;
-  op.camera = receivers.camera.name;
-  op.camera_frame = receivers.camera.frame;
-  op.camera_yfov = receivers.camera.yfov;
   op.points_per_slot = points;
   op.lit = owned->lit, op.receivers = owned->receivers, op.places = owned->places;
-  op.owners.push_back(owned);
+  op.owners = {owned};
+}
+
+void OperatorStart::place(const RelightReceivers& receivers, const TransferParams& params) {
+  place_middles(receivers);
+  place_points(receivers, params);
 }
 
 }  // namespace sconce

@@ -16,6 +16,9 @@ struct OperatorStart {
   OperatorStart(const TracedScene& traced, const RelightReceivers& receivers, const TransferParams& params,
                 std::size_t leaf, const Progress& progress);
 
+  /// After samples or receivers moved: points of slots, middles and what the file says of them.
+  void place(const RelightReceivers& receivers, const TransferParams& params);
+
   /// Receiver i of the file, which is `order[i]` of the source, at its middle.
   SurfacePoint middle(std::size_t i) const { return middles[order[i]]; }
 
@@ -24,6 +27,10 @@ struct OperatorStart {
   std::vector<uint32_t> order;        ///< of receivers: alike ones together
   std::vector<SurfacePoint> middles;  ///< of the source's receivers
   Operator op;                        ///< all but the matrices, their albedos and the scene's hash
+
+ private:
+  void place_middles(const RelightReceivers& receivers);
+  void place_points(const RelightReceivers& receivers, const TransferParams& params);
 };
 
 /// Calls f(block) for this rank's blocks on all threads, and tells how many are done.

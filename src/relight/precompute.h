@@ -26,6 +26,7 @@ struct TransferParams {
   int nearest = 1000;                       ///< of these, looked at from each slot
   /// Per Scene material: share of light that goes straight on behind it, whatever its own adds. Empty: none.
   std::vector<float> transmission;
+  bool movable = false;  ///< things may move later (operator_parts.h): what is hidden has slots, too
   uint32_t seed = 1;
 };
 
