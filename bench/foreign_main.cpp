@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Indirect light for a foreign renderer, as Markdown: what it takes to make the operator and to update the
 // ambient term of all vertices for a lamp that moves, against the number of triangles; the error beside
-// paths, and Keller's instant radiosity beside both; how fast the light is there after a jump. The renderer
-// is the tests' own and its time is not counted. foreign [LARGEST [SLOTS [RAYS]]]
+// paths, and Keller's instant radiosity beside both; how fast the light is there after a jump; what a thing
+// that moves costs. The renderer is the tests' own and its time is not counted. foreign [LARGEST [SLOTS
+// [RAYS]]]
 #include <fmt/format.h>
 
 #include <chrono>
@@ -146,7 +147,7 @@ void keller(double triangles, const TransferParams& params) {
        }));
   for (const float nearest : {0.0f, 0.5f}) {
     const auto start = Clock::now();
-    const std::vector<LightSample> samples = light_samples(rig.lit(), 1000);
+    const std::vector<VirtualLight> samples = light_samples(rig.lit(), 1000);
     const std::vector<Rgb> light = instant_radiosity(rig.tracer, samples, points, nearest);
     line(fmt::format("Keller, {} light samples{}", samples.size(),
                      nearest > 0 ? fmt::format(", none nearer than {} m", nearest) : ""),
@@ -178,6 +179,32 @@ void response(const TransferParams& params) {
     fmt::print("| {} | {:.3f} | {:.3f} |\n", frame + 1, share[frame], energy[frame] / energy.back());
 }
 
+/// A sphere in the middle of the room, or one in a corner, moves by half of its size.
+void moving(double triangles, TransferParams params) {
+  params.movable = true;
+  Scene scene = make_scene(triangles);
+  World world = make_world(scene);
+  Tracer tracer(scene, world);
+  const TracedScene traced{scene, world, tracer};
+  const double before = cpu();
+  OperatorParts parts(traced, vertex_receivers(traced), params, "", {});
+  const Operator op = parts.make({});
+  fmt::print("\n| {} triangles | CPU s | rows of {} | clusters fitted again |\n|---|---|---|---|\n",
+             world.size(), op.gather.rows);
+  fmt::print("| made | {:.1f} | | |\n", cpu() - before);
+  for (const auto& [name, sphere] : {std::pair("in the middle", 6u), std::pair("in a corner", 1u)}) {
+    scene.instances[sphere].transform[3][1] += 0.5f;
+    world = make_world(scene);
+    tracer = Tracer(scene, world);
+    FollowReport report;
+    const double start = cpu();
+    parts.follow({}, &report);
+    fmt::print("| a sphere {} moved | {:.1f} | {} | {} |\n", name, cpu() - start, report.receivers,
+               report.clusters);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -189,4 +216,5 @@ int main(int argc, char** argv) {
   scaling(largest, params);
   keller(std::min(largest, 30000.0), params);
   response(params);
+  moving(std::min(largest, 30000.0), params);
 }

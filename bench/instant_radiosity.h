@@ -32,19 +32,19 @@ struct LitRoom {
 };
 
 /// Reflected light as a lamp on a surface: its intensity falls off with the cosine.
-struct LightSample {
+struct VirtualLight {
   SurfacePoint at;
   Rgb flux;
 };
 
 /// About `count` of them (methods.md 2.4): particles that go on with the probability of the mean reflectance,
 /// one sample at each hit.
-inline std::vector<LightSample> light_samples(const LitRoom& room, std::size_t count) {
+inline std::vector<VirtualLight> light_samples(const LitRoom& room, std::size_t count) {
   float mean = 0;
   for (const SyntheticMaterial& m : room.materials) mean += luminance(m.response.reflectance);
   mean /= static_cast<float>(room.materials.size());
   const auto particles = static_cast<uint32_t>(static_cast<float>(count) * (1 - mean));
-  std::vector<LightSample> samples;
+  std::vector<VirtualLight> samples;
   for (uint32_t p = 0; p < particles; ++p) {
     Rgb flux = room.lamp.intensity * (4 * kPi * room.unit / static_cast<float>(particles));
     const Vec2 u = sobol_pair(p, 0, 1);
@@ -67,12 +67,12 @@ inline std::vector<LightSample> light_samples(const LitRoom& room, std::size_t c
 
 /// What points receive from light samples, a shadow ray each. No sample counts as nearer than `nearest`, m:
 /// without it, corners have bright spots; with it, they lose light.
-inline std::vector<Rgb> instant_radiosity(const Tracer& tracer, std::span<const LightSample> samples,
+inline std::vector<Rgb> instant_radiosity(const Tracer& tracer, std::span<const VirtualLight> samples,
                                           std::span<const SurfacePoint> points, float nearest) {
   std::vector<Rgb> out(points.size());
   parallel_for(points.size(), 64, [&](std::size_t i) {
     const SurfacePoint& p = points[i];
-    for (const LightSample& sample : samples) {
+    for (const VirtualLight& sample : samples) {
       const Vec3 to = sample.at.position - p.position;
       const float distance = glm::length(to);
       const float cosines = std::max(0.0f, glm::dot(to, p.shading_normal)) *

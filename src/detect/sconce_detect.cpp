@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detect/sconce_detect.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "core/c_message.h"
@@ -67,6 +69,18 @@ struct HostGeometry {
       scene.instances.push_back(instance);
     }
   }
+
+  /// The same vertices elsewhere.
+  void place(const float* positions, const float* normals) {
+    std::size_t next = 0;
+    for (Mesh& mesh : scene.meshes)
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        const std::size_t v = vertices[next++];
+        mesh.positions[k] = Vec3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+        if (!mesh.normals.empty() && normals != nullptr)
+          mesh.normals[k] = Vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
+      }
+  }
 };
 
 }  // namespace
@@ -91,6 +105,7 @@ struct sconce_gi {
     params.gather = p.samples > 0 ? static_cast<std::size_t>(p.samples) : 16384;
     if (p.rays > 0) params.rays = p.rays;
     params.keep_sums = true;
+    params.movable = movable = p.movable != 0;
     if (p.milliseconds > 0) budget.milliseconds = static_cast<double>(p.milliseconds);
     std::vector<uint32_t> all(world.size());
     for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
@@ -143,6 +158,7 @@ struct sconce_gi {
   HostRenderer host;
   DetectParams detect_params;
   FrameBudget budget;
+  bool movable = false;
   Detection detection;
   std::unique_ptr<RealtimeRadiosity> radiosity;
 };
@@ -187,10 +203,33 @@ int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size) {
   }
 }
 
+int sconce_gi_move(sconce_gi* gi, const float* positions, const float* normals, char* message,
+                   size_t message_size) {
+  const std::vector<Mesh> before = gi->geometry.scene.meshes;
+  try {
+    if (!gi->movable) throw UsageError("things that move", "a gi that stays", "sconce_gi_params::movable");
+    gi->radiosity->wait();
+    gi->geometry.place(positions, normals);
+    World moved = make_world(gi->geometry.scene);
+    if (moved.size() != gi->world.size())
+      throw Error("geometry", fmt::format("{} triangles have an area", moved.size()),
+                  fmt::format("as many as before: {}", gi->world.size()));
+    gi->world = std::move(moved);
+    gi->tracer = Tracer(gi->geometry.scene, gi->world);
+    gi->radiosity->follow();
+    return 0;
+  } catch (const std::exception& e) {
+    gi->geometry.scene.meshes = before;
+    copy_message(e.what(), message, message_size);
+    return 1;
+  }
+}
+
 int sconce_gi_update(sconce_gi* gi, float* ambient, sconce_frame* frame, char* message, size_t message_size) {
   const FrameReport report = gi->radiosity->update(gi->budget);
   if (frame != nullptr)
-    *frame = {report.capture.milliseconds, report.solve_milliseconds, report.coarse, report.clipped};
+    *frame = {report.capture.milliseconds, report.solve_milliseconds, report.following ? 1 : 0, report.coarse,
+              report.clipped};
   std::fill(ambient, ambient + 3 * gi->vertex_count, 0.0f);
   const std::span<const Rgb> light = gi->radiosity->ambient();
   // A vertex that several materials use has the light of the last of them.

@@ -54,6 +54,7 @@ typedef struct sconce_gi_params {
   int rays;           /* per vertex; 0: 512 */
   float milliseconds; /* of solving per frame, the rest follows while light rests; 0: all at once */
   float texel;        /* m, of direct light; 0: a 256th of the scene's size */
+  int movable;        /* 1: sconce_gi_move() may be called; what is needed for it is kept */
 } sconce_gi_params;
 
 typedef struct sconce_material {
@@ -66,6 +67,7 @@ typedef struct sconce_material {
 typedef struct sconce_frame {
   double capture_milliseconds; /* in the renderer, reading back included */
   double solve_milliseconds;
+  int following;  /* 1: things moved, and the light is still that of their old places */
   size_t coarse;  /* vertices whose light is right only in the mean of many, so far */
   size_t clipped; /* points brighter than the target can hold */
 } sconce_frame;
@@ -81,6 +83,12 @@ void sconce_gi_material(const sconce_gi* gi, size_t material, sconce_material* o
 /* After the renderer's materials changed; what light goes through stays as it was. Returns 0, or 1 and writes
  * to `message`: then the old ones stay. */
 int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size);
+
+/* After things moved: all vertices at their new places, in the same order. Only what saw the movement is made
+ * again, in the background; a second call waits for the first. Returns 0, or 1 and writes to `message`: then
+ * all is as before. */
+int sconce_gi_move(sconce_gi* gi, const float* positions, const float* normals, char* message,
+                   size_t message_size);
 
 /* Draws the direct light and solves. `ambient`: 3 per vertex, linear, to be multiplied by the surface's
  * reflectance and added to what it shows. `frame` may be NULL. Returns 0, or 1 and writes to `message`: then

@@ -54,7 +54,7 @@ TEST(DetectInC, Furnace) {
   sconce_geometry geometry{
       &host.world.positions[0].x, &host.world.normals[0].x, host.world.positions.size(), indices.data(),
       materials.data(),           host.world.size()};
-  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0, 0.1f};
+  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0, 0.1f, 1};
   char message[256] = "";
   sconce_gi* gi = sconce_gi_create(&geometry, CHost::draw, &host, &params, message, sizeof message);
   ASSERT_NE(gi, nullptr) << message;
@@ -69,6 +69,19 @@ TEST(DetectInC, Furnace) {
   EXPECT_EQ(sconce_gi_update(gi, ambient.data(), &frame, message, sizeof message), 0);
   for (const float light : ambient) EXPECT_NEAR(light, 1, 0.02f);
   EXPECT_GT(frame.solve_milliseconds, 0);
+
+  // A furnace stays one when its crate moves.
+  std::vector<Vec3> places = host.world.positions;
+  for (std::size_t v = 24; v < places.size(); ++v) places[v] += Vec3(0.3f, 0, 0.1f);
+  EXPECT_EQ(sconce_gi_move(gi, &places[0].x, nullptr, message, sizeof message), 0) << message;
+  do {
+    EXPECT_EQ(sconce_gi_update(gi, ambient.data(), &frame, message, sizeof message), 0);
+    for (const float light : ambient) EXPECT_NEAR(light, 1, 0.03f);
+  } while (frame.following != 0);
+  places[1] = places[0];
+  places[2] = places[0];
+  EXPECT_EQ(sconce_gi_move(gi, &places[0].x, nullptr, message, sizeof message), 1);
+  EXPECT_NE(std::string(message).find("as many as before: 24"), std::string::npos) << message;
 
   host.renderer.materials[1].response.reflectance = Rgb(0.2f);
   EXPECT_EQ(sconce_gi_detect(gi, message, sizeof message), 0);
