@@ -3,11 +3,11 @@
 // stands between the two (docs/foreign-renderers.md). The program's materials and lights are its own.
 #pragma once
 
+#include <Ogre.h>
+
 #include <map>
-#include <set>
 
 #include "detect/ambient_map.h"
-#include "generated.h"
 
 class OgreRadiosity {
  public:
@@ -24,29 +24,31 @@ class OgreRadiosity {
   const sconce::Detection& detection() const { return map_.detection(); }
 
  private:
+  /// What is kept of one of the program's materials.
+  struct Paint {
+    sconce::Id<sconce::Material> id;
+    Ogre::MaterialPtr bare;  ///< a copy of the program's material, for drawing faces
+  };
+  using Paints = std::map<Ogre::MaterialPtr, Paint>;
   /// A sub-entity, as it is drawn now: three vertices per face.
   struct Part {
     Ogre::SubEntity* entity;
-    Ogre::MaterialPtr own, bare;  ///< the program's, and a copy for drawing faces
-    std::vector<sconce::Vec2> places;
-    Ogre::HardwareVertexBufferSharedPtr place_buffer, map_buffer;
+    const Paints::value_type* paint;
+    std::vector<std::array<sconce::Vec2, 2>> corners;  ///< in the ambient map; in the drawing, from -1 to 1
+    Ogre::HardwareVertexBufferSharedPtr buffer;        ///< of them
   };
 
   sconce::Scene collect();
   void take(Ogre::Entity& entity, sconce::Scene& out);
   sconce::Drawing draw(const sconce::DrawRequest& request);
-  const Ogre::TexturePtr& target(int width, int height);
+  void set_target(unsigned width, unsigned height);
 
   Ogre::SceneManager& scene_;
-  GeneratedTechniques listener_;
   std::vector<Part> parts_;  ///< per instance of the map's scene
-  std::map<std::string, sconce::Id<sconce::Material>> materials_;
-  std::set<Ogre::Mesh*> meshes_;
+  Paints paints_;
   Ogre::MaterialPtr white_;
   sconce::AmbientMap map_;
   Ogre::Camera* eye_;
-  Ogre::Camera* all_;  ///< sees all, so that nothing is culled
   Ogre::Light* probe_;
-  std::map<std::pair<int, int>, Ogre::TexturePtr> targets_;
-  Ogre::TexturePtr light_;
+  Ogre::TexturePtr target_, light_;
 };

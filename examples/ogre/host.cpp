@@ -2,6 +2,7 @@
 // A small OGRE program with materials and lights of its own, that knows nothing of bounces; then the same
 // with them. Run it with OUT, a prefix of files: pictures without and with, before and after its lamp
 // changed. It needs a display.
+#include <OgreShaderGenerator.h>
 #include <OgreShaderRenderState.h>
 
 #include "core/error.h"
@@ -22,6 +23,32 @@ Ogre::Vector3 vec(const room::Triple& t) {
 Ogre::ColourValue colour(const room::Triple& t, float times = 1) {
   return Ogre::ColourValue(t[0] * times, t[1] * times, t[2] * times);
 }
+
+/// While it lives, the shader generator makes the techniques of a scheme that materials lack when first
+/// drawn.
+class GeneratedTechniques : public Ogre::MaterialManager::Listener {
+ public:
+  explicit GeneratedTechniques(Ogre::String scheme) : scheme_(std::move(scheme)) {
+    Ogre::MaterialManager::getSingleton().addListener(this, scheme_);
+  }
+  ~GeneratedTechniques() override { Ogre::MaterialManager::getSingleton().removeListener(this, scheme_); }
+  GeneratedTechniques(const GeneratedTechniques&) = delete;
+  GeneratedTechniques& operator=(const GeneratedTechniques&) = delete;
+
+  Ogre::Technique* handleSchemeNotFound(unsigned short, const Ogre::String& scheme, Ogre::Material* material,
+                                        unsigned short, const Ogre::Renderable*) override {
+    auto& generator = shader::ShaderGenerator::getSingleton();
+    if (!generator.createShaderBasedTechnique(*material, Ogre::MaterialManager::DEFAULT_SCHEME_NAME, scheme))
+      return nullptr;
+    generator.validateMaterial(scheme, material->getName(), material->getGroup());
+    for (Ogre::Technique* technique : material->getTechniques())
+      if (technique->getSchemeName() == scheme) return technique;
+    return nullptr;
+  }
+
+ private:
+  Ogre::String scheme_;
+};
 
 class Program {
  public:

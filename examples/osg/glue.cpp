@@ -40,6 +40,11 @@ osg::ref_ptr<osg::Array> expanded_any(osg::Array* from, const std::vector<unsign
               "Vec2Array, Vec3Array, Vec4Array, Vec4ubArray");
 }
 
+void set(osg::Vec2Array& array, const std::vector<Vec2>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) array[i].set(values[i].x, values[i].y);
+  array.dirty();
+}
+
 }  // namespace
 
 /// Takes the graph in: shaders are rewritten, geometries become a Scene.
@@ -62,24 +67,18 @@ class OsgRadiosity::Collector : public osg::NodeVisitor {
       throw Error(geometry.getName(), "has no Vec3Array of vertices and of normals");
     const osg::Matrix world = osg::computeLocalToWorld(getNodePath());
     const osg::Matrix turned = osg::Matrix::inverse(world);
-    Mesh mesh;
-    mesh.material = material();
-    for (std::size_t v = 0; v < positions->size(); ++v) {
-      const osg::Vec3 p = (*positions)[v] * world;
-      mesh.positions.emplace_back(p.x(), p.y(), p.z());
-      const osg::Vec3 n = osg::Matrix::transform3x3(turned, (*normals)[std::min(v, normals->size() - 1)]);
-      mesh.normals.push_back(glm::normalize(Vec3(n.x(), n.y(), n.z())));
-    }
+    std::vector<Vec3> corners, corner_normals;
     osg::TriangleIndexFunctor<Triples> triples;
     geometry.accept(triples);
-    const std::vector<unsigned>& indices = triples.indices;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-      mesh.triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]}});
-    Instance instance;
-    instance.mesh = Id<Mesh>(out_.scene_.meshes.size());
-    out_.scene_.meshes.push_back(std::move(mesh));
-    out_.scene_.instances.push_back(instance);
-    expand(geometry, indices);
+    for (const unsigned v : triples.indices) {
+      const osg::Vec3 p = (*positions)[v] * world;
+      corners.emplace_back(p.x(), p.y(), p.z());
+      const osg::Vec3 n = osg::Matrix::transform3x3(
+          turned, (*normals)[std::min(v, static_cast<unsigned>(normals->size()) - 1)]);
+      corner_normals.emplace_back(n.x(), n.y(), n.z());
+    }
+    add_part(out_.scene_, material(), std::move(corners), std::move(corner_normals));
+    expand(geometry, triples.indices);
   }
 
  private:
@@ -147,14 +146,8 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
   viewer.getCamera()->setCullMask(kScene);
   viewer.getCamera()->getOrCreateStateSet()->addUniform(new osg::Uniform("sconce_in_faces", 0.0f));
   map_ = std::make_unique<AmbientMap>(std::move(scene_), 12.0f);
-  const auto coordinates = map_->coordinates();
-  for (std::size_t t = 0; t < coordinates.size(); ++t)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec2& uv = coordinates[t][c];
-      (*parts_[map_->world().instances[t].value].lightmap)[3 * map_->world().source_triangles[t] + c].set(
-          uv.x, uv.y);
-    }
-  for (Part& part : parts_) part.lightmap->dirty();
+  const PartCorners coordinates = map_->coordinates();
+  for (std::size_t p = 0; p < parts_.size(); ++p) set(*parts_[p].lightmap, coordinates[p]);
 
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(map_->space().width, map_->space().height, 1, GL_RGB, GL_FLOAT);
@@ -203,15 +196,8 @@ const OsgRadiosity::Target& OsgRadiosity::target(int width, int height) {
 }
 
 Drawing OsgRadiosity::draw(const DrawRequest& request) {
-  for (Part& part : parts_) std::fill(part.places->begin(), part.places->end(), osg::Vec2(2, 2));  // nowhere
-  for (std::size_t i = 0; i < request.triangles.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const uint32_t t = request.triangles[i];
-      const Vec2& corner = request.corners[i][c];
-      (*parts_[map_->world().instances[t].value].places)[3 * map_->world().source_triangles[t] + c].set(
-          corner.x / static_cast<float>(request.width), corner.y / static_cast<float>(request.height));
-    }
-  for (Part& part : parts_) part.places->dirty();
+  const PartCorners places = map_->places(request);
+  for (std::size_t p = 0; p < parts_.size(); ++p) set(*parts_[p].places, places[p]);
   const Target& t = target(request.width, request.height);
   t.camera->setClearColor(osg::Vec4(1, 1, 1, 1) * request.background);
   t.camera->setViewMatrix(viewer_.getCamera()->getViewMatrix());
@@ -222,12 +208,9 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
   viewer_.frame();
   viewer_.getCamera()->setCullMask(kScene);
   root_.removeChild(t.camera);
-  Drawing drawing;
-  drawing.width = t.image->s(), drawing.height = t.image->t();
+  Drawing drawing{t.image->s(), t.image->t(), {}, {}};
   const auto* rgba = reinterpret_cast<const float*>(t.image->data());
-  const auto pixels = static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
-  drawing.values.reserve(3 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i)
+  for (std::size_t i = 0; i < request.pixels(); ++i)
     drawing.values.insert(drawing.values.end(), rgba + 4 * i, rgba + 4 * i + 3);
   return drawing;
 }

@@ -15,6 +15,18 @@ constexpr int kRings = 3;  // of texels around a face
 
 }  // namespace
 
+void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals) {
+  Mesh mesh;
+  mesh.material = material;
+  for (uint32_t v = 0; v + 2 < positions.size(); v += 3) mesh.triangles.push_back({{v, v + 1, v + 2}});
+  for (Vec3& n : normals) n = normalize_or(n, Vec3(0, 0, 1));
+  mesh.positions = std::move(positions), mesh.normals = std::move(normals);
+  Instance instance;
+  instance.mesh = Id<Mesh>(scene.meshes.size());
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back(std::move(instance));
+}
+
 AmbientMap::AmbientMap(Scene scene, float density)
     : scene_(std::move(scene)),
       world_(make_world(scene_)),
@@ -23,12 +35,24 @@ AmbientMap::AmbientMap(Scene scene, float density)
       atlas_(one_atlas(traced_, density)),
       space_(atlas_space(atlas_)) {}
 
-std::vector<std::array<Vec2, 3>> AmbientMap::coordinates() const {
-  std::vector<std::array<Vec2, 3>> all(world_.size(), {Vec2(0), Vec2(0), Vec2(0)});
-  const Vec2 whole(static_cast<float>(space_.width), static_cast<float>(space_.height));
-  for (std::size_t i = 0; i < space_.triangles.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) all[space_.triangles[i]][c] = space_.corners[i][c] / whole;
-  return all;
+PartCorners AmbientMap::corners(std::span<const uint32_t> triangles, std::span<const std::array<Vec2, 3>> at,
+                                Vec2 whole, Vec2 others) const {
+  PartCorners parts;
+  for (const Instance& instance : scene_.instances)
+    parts.emplace_back(3 * scene_[instance.mesh].triangles.size(), others);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      parts[world_.instances[triangles[i]].value][3 * world_.source_triangles[triangles[i]] + c] =
+          at[i][c] / whole;
+  return parts;
+}
+
+PartCorners AmbientMap::coordinates() const {
+  return corners(space_.triangles, space_.corners, Vec2(space_.width, space_.height), Vec2(0));
+}
+
+PartCorners AmbientMap::places(const DrawRequest& request) const {
+  return corners(request.triangles, request.corners, Vec2(request.width, request.height), Vec2(2));
 }
 
 void AmbientMap::start(const HostRenderer& host, TransferParams params, const Progress& progress,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that a foreign renderer needs for an ambient term in a texture: the atlas of its scene, its materials,
-// its radiosity.
+// its radiosity. Its geometry is taken part by part, every face with three vertices of its own.
 #pragma once
 
 #include "detect/realtime.h"
@@ -8,9 +8,18 @@
 
 namespace sconce {
 
+/// Per part, three for each of its faces, in the order of its vertices.
+using PartCorners = std::vector<std::vector<Vec2>>;
+
+/// Adds what the renderer draws at once: a mesh and its instance.
+/// @param positions  in the world, three per face
+/// @param normals    as many, of any length
+void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals);
+
 class AmbientMap {
  public:
   /// Unwraps the scene into one texture.
+  /// @param scene    of parts
   /// @param density  texels per metre
   AmbientMap(Scene scene, float density);
 
@@ -18,8 +27,10 @@ class AmbientMap {
   const TracedScene& traced() const { return traced_; }
   /// Where the faces lie in the texture, in texels, and its size; rows go up.
   const TextureSpace& space() const { return space_; }
-  /// Per triangle of the world, its corners' texture coordinates, 0 to 1; of a triangle without light, 0.
-  std::vector<std::array<Vec2, 3>> coordinates() const;
+  /// The vertices' texture coordinates, 0 to 1; of a face without light, 0.
+  PartCorners coordinates() const;
+  /// Where a drawing wants the vertices, 0 to 1; those of faces that it does not want lie at 2, outside.
+  PartCorners places(const DrawRequest& request) const;
 
   /// Asks the renderer for its materials and follows rays, once.
   /// @param params  their sums are kept whatever they say: even light stays exact
@@ -39,6 +50,9 @@ class AmbientMap {
   RealtimeRadiosity& radiosity() { return *radiosity_; }
 
  private:
+  PartCorners corners(std::span<const uint32_t> triangles, std::span<const std::array<Vec2, 3>> at,
+                      Vec2 whole, Vec2 others) const;
+
   Scene scene_;
   World world_;
   Tracer tracer_;

@@ -34,13 +34,40 @@ TEST(AmbientMap, Furnace) {
     }
   EXPECT_GT(around, 0u) << "filtering reads texels around faces";
   // A corner has a place in the texture: that of its face's texels.
-  const auto coordinates = map.coordinates();
-  for (std::size_t f = 0; f < space.triangles.size(); ++f) {
-    const auto& uv = coordinates[space.triangles[f]];
+  const PartCorners coordinates = map.coordinates();
+  ASSERT_EQ(coordinates.size(), 1u);
+  for (const uint32_t t : space.triangles) {
+    const Vec2* uv = &coordinates[0][3 * map.world().source_triangles[t]];
     const Vec2 middle = (uv[0] + uv[1] + uv[2]) * Vec2(space.width, space.height) / 3.0f;
     EXPECT_TRUE(space.covered[static_cast<std::size_t>(middle.y) * static_cast<std::size_t>(space.width) +
                               static_cast<std::size_t>(middle.x)]);
   }
+}
+
+// Two parts; a drawing of the second's second face alone.
+TEST(AmbientMap, VerticesOfParts) {
+  Scene scene;
+  const Id<Material> grey = add_material(scene, "grey", Rgb(0.2f));
+  const std::vector<Vec3> quad{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  add_part(scene, grey, {quad.begin(), quad.begin() + 3}, std::vector<Vec3>(3, {0, 0, 5}));
+  std::vector<Vec3> above = quad;
+  for (Vec3& p : above) p.z = 1;
+  add_part(scene, grey, above, std::vector<Vec3>(6, {0, 0, 5}));
+  EXPECT_EQ(scene.meshes[0].normals[2], Vec3(0, 0, 1));
+  const AmbientMap map(std::move(scene), 8);
+  ASSERT_EQ(map.world().size(), 3u);
+  DrawRequest request;
+  request.width = 4, request.height = 8;
+  const std::vector<uint32_t> triangles{2};
+  const std::vector<std::array<Vec2, 3>> corners{{Vec2(0, 0), Vec2(4, 0), Vec2(0, 2)}};
+  request.triangles = triangles, request.corners = corners;
+  const PartCorners places = map.places(request), coordinates = map.coordinates();
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0], std::vector<Vec2>(3, Vec2(2)));
+  EXPECT_EQ(places[1], (std::vector<Vec2>{Vec2(2), Vec2(2), Vec2(2), Vec2(0), Vec2(1, 0), Vec2(0, 0.25f)}));
+  // The two faces of the second part meet in the texture, too.
+  EXPECT_EQ(coordinates[1][0], coordinates[1][3]);
+  EXPECT_EQ(coordinates[1][2], coordinates[1][4]);
 }
 
 }  // namespace

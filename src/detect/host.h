@@ -51,6 +51,8 @@ struct DrawRequest {
   /// pixel. Wound as the triangle: counter-clockwise where rows go up; clockwise where its back is asked for,
   /// which only renderers that light both sides will show (gl_FrontFacing is false).
   std::span<const std::array<Vec2, 3>> corners;
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 /// What came of it: RGB, row by row, the first row as of `DrawRequest::corners`.
