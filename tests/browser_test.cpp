@@ -17,17 +17,10 @@ using Json = nlohmann::json;
 namespace sconce {
 namespace {
 
-bool can_browse() {
-  const bool browser = std::getenv("CHROMIUM") != nullptr || fs::exists("/usr/bin/chromium");
-  return browser && std::system("command -v node >/dev/null") == 0 &&
-         fs::exists(fs::path(SCONCE_PROGRAM).parent_path() / "web/index.html") &&
-         fs::exists(SCONCE_SOURCE_DIR "/web/node_modules/playwright-core");
-}
-
 class Browser : public testing::Test {
  protected:
   void SetUp() override {
-    if (can_browse()) return;
+    if (test::can_browse() && fs::exists(fs::path(SCONCE_PROGRAM).parent_path() / "web/index.html")) return;
     constexpr const char* kMissing = "node, chromium or the page ('make web') is absent";
     if (test_data_required()) FAIL() << kMissing;
     GTEST_SKIP() << kMissing;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody else's renderer with our global illumination: the OpenSceneGraph and the OGRE example against
-// paths in their room, lit by their light model.
+// Somebody else's renderer with our global illumination: the OpenSceneGraph, the OGRE and the three.js
+// example against paths in their room, lit by their light model.
 #include <gtest/gtest.h>
 
 #include "../examples/room/room.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "core/test_data.h"
 #include "image/io.h"
 #include "process.h"
 #include "scene/lens.h"
@@ -117,9 +118,24 @@ Difference difference(const std::string& with, const std::string& without, const
   return {std::sqrt(squares / n) / (expected / n), sum / expected};
 }
 
+#define SCONCE_NEEDS_BROWSER()                                                                    \
+  if (!test::can_browse()) {                                                                      \
+    constexpr const char* kMissing = "node, chromium or web/node_modules ('make web') is absent"; \
+    if (test_data_required()) FAIL() << kMissing;                                                 \
+    GTEST_SKIP() << kMissing;                                                                     \
+  }
+
 class Renderer : public testing::TestWithParam<const char*> {
  protected:
+  void SetUp() override {
+    if (in_browser()) SCONCE_NEEDS_BROWSER();
+  }
+  static bool in_browser() { return std::string(GetParam()).ends_with("/three_radiosity"); }
   test::Outcome run(std::vector<std::string> arguments) const {
+    if (in_browser()) {
+      arguments.insert(arguments.begin(), {SCONCE_SOURCE_DIR "/web/test/three.mjs", GetParam()});
+      return test::run_program("node", arguments, "timeout 300");
+    }
     return test::run_program(GetParam(), arguments, test::with_display("640x480", 300));
   }
   TemporaryFolder folder_;
@@ -152,6 +168,17 @@ TEST_P(Renderer, LacquerIsNotLambertian) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("lacquer is not Lambertian: "), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("plaster is not"), std::string::npos) << outcome.out;
+}
+
+// A lost context, a shader that cannot be rewritten, NaN, sconce gone: one line, and the page goes on.
+TEST(ThreeJs, GoesOnWithoutBounces) {
+  SCONCE_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  const test::Outcome outcome = test::run_program(
+      "node",
+      {SCONCE_SOURCE_DIR "/web/test/three_faults.mjs", THREE_RADIOSITY, (folder / "room.png").string()},
+      "timeout 300");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
 }
 
 }  // namespace

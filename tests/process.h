@@ -41,6 +41,13 @@ inline std::string with_display(const std::string& size, int seconds) {
          std::to_string(seconds);
 }
 
+/// Whether the distribution's headless browser can be driven (web/test).
+inline bool can_browse() {
+  const bool browser = std::getenv("CHROMIUM") != nullptr || std::filesystem::exists("/usr/bin/chromium");
+  return browser && std::system("command -v node >/dev/null") == 0 &&
+         std::filesystem::exists(SCONCE_SOURCE_DIR "/web/node_modules/playwright-core");
+}
+
 inline Outcome run_sconce(const std::vector<std::string>& args, const std::string& prefix = {}) {
   return run_program(SCONCE_PROGRAM, args, prefix);
 }

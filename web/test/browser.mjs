@@ -34,6 +34,7 @@ export async function serveFolder(folder, spoil = (_path, bytes) => bytes) {
 
 export async function openBrowser(...more) {
   return chromium.launch({
+    timeout: 120000,
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', ...more],
   });
@@ -42,6 +43,7 @@ export async function openBrowser(...more) {
 /** A page, its console's errors and the bytes of what it loaded. */
 export async function openPage(browser, url, size = { width: 800, height: 450 }) {
   const page = await browser.newPage({ viewport: size, reducedMotion: 'reduce' });
+  page.setDefaultTimeout(120000); // of busy machines
   const sizes = [];
   const seen = {
     page,
