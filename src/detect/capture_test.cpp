@@ -36,6 +36,24 @@ TEST(FaceCells, DoNotMeetAndHoldWholePixels) {
   EXPECT_THROW(face_cells(triangles, std::vector<int>(200, 5000)), Error);
 }
 
+TEST(FaceCells, SpreadOverAScreen) {
+  const std::vector<uint32_t> triangles{4, 5, 6, 7, 8};
+  const TextureSpace here = spread_cells(triangles, 8, 1024, 0, 0),
+                     there = spread_cells(triangles, 8, 1024, 1, 0.5f);
+  EXPECT_EQ(here.width, 1023);  // three cells of 341 pixels
+  EXPECT_EQ(here.triangles, triangles);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    int count = 0;
+    each_pixel(there, i, [&](std::size_t pixel) {
+      EXPECT_TRUE(there.covered[pixel]);
+      ++count;
+    });
+    EXPECT_EQ(count, 8 * 9 / 2);
+    // One cell on, and half of the room of 332 pixels; the last one comes first.
+    EXPECT_EQ(there.corners[i][0], here.corners[(i + 1) % 5][0] + Vec2(166));
+  }
+}
+
 TEST(FaceCells, LargeFacesGetMore) {
   Scene scene;
   const auto grey = add_material(scene, "grey", Rgb(0.5f));

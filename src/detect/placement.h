@@ -6,7 +6,7 @@
 
 namespace sconce {
 
-/// Draws the same faces with all lights twice, in opposite orders on the target.
+/// Draws the same faces with all lights at several places, far apart on a target as large as a screen.
 /// @return largest difference of a face's light, as a share of it
 float placement_residual(const HostRenderer& host, std::span<const uint32_t> triangles, int texels,
                          CaptureCost& cost);

@@ -12,6 +12,19 @@ namespace {
 constexpr int kMostPixels = 16384;  // a side of a target
 constexpr float kInset = 0.25f;     // from a cell's corner: middles of pixels are clearly on the face, or not
 
+std::array<Vec2, 3> cell_corners(int x, int y, int texels) {
+  const Vec2 corner(static_cast<float>(x) + kInset, static_cast<float>(y) + kInset);
+  const auto leg = static_cast<float>(texels);
+  return {corner, corner + Vec2(leg, 0), corner + Vec2(0, leg)};
+}
+
+/// @throws Error
+void check_size(const TextureSpace& space) {
+  if (std::max(space.width, space.height) > kMostPixels)
+    throw Error({}, std::to_string(space.triangles.size()) + " faces do not fit into one target",
+                "up to " + std::to_string(kMostPixels) + " pixels a side: fewer faces, or fewer texels each");
+}
+
 void mark_covered(TextureSpace& space) {
   space.covered.assign(static_cast<std::size_t>(space.width) * static_cast<std::size_t>(space.height), 0);
   for (std::size_t i = 0; i < space.triangles.size(); ++i)
@@ -40,15 +53,30 @@ TextureSpace face_cells(std::span<const uint32_t> triangles, std::span<const int
     const int side = texels[i] + 1;
     if (x + side > space.width) x = 0, y += row, row = 0;
     row = std::max(row, side);
-    const Vec2 corner(static_cast<float>(x) + kInset, static_cast<float>(y) + kInset);
-    const auto leg = static_cast<float>(texels[i]);
-    space.corners[i] = {corner, corner + Vec2(leg, 0), corner + Vec2(0, leg)};
+    space.corners[i] = cell_corners(x, y, texels[i]);
     x += side;
   }
   space.height = std::max(1, y + row);
-  if (std::max(space.width, space.height) > kMostPixels)
-    throw Error({}, std::to_string(triangles.size()) + " faces do not fit into one target",
-                "up to " + std::to_string(kMostPixels) + " pixels a side: fewer faces, or fewer texels each");
+  check_size(space);
+  mark_covered(space);
+  return space;
+}
+
+TextureSpace spread_cells(std::span<const uint32_t> triangles, int texels, int side, std::size_t first,
+                          float shift) {
+  TextureSpace space;
+  space.triangles.assign(triangles.begin(), triangles.end());
+  const std::size_t n = triangles.size();
+  const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(n)))));
+  const int pitch = std::max(texels + 1, side / columns);
+  space.width = space.height = columns * pitch;
+  const int room = static_cast<int>(shift * static_cast<float>(pitch - texels - 1));
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto cell = static_cast<int>((i + first) % n);
+    space.corners.push_back(
+        cell_corners(cell % columns * pitch + room, cell / columns * pitch + room, texels));
+  }
+  check_size(space);
   mark_covered(space);
   return space;
 }

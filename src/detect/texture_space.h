@@ -25,6 +25,12 @@ struct TextureSpace {
 /// @throws Error where they do not fit into 16384 x 16384 pixels
 TextureSpace face_cells(std::span<const uint32_t> triangles, std::span<const int> texels);
 
+/// Cells of `texels` x `texels`, spread over a target of at least `side` x `side` pixels: face i lies in cell
+/// i + `first` of a grid of as many as there are faces, `shift`, 0 to 1, of the way through the room that it
+/// has there.
+TextureSpace spread_cells(std::span<const uint32_t> triangles, int texels, int side, std::size_t first,
+                          float shift);
+
 /// Texels per face so that those are `size` m wide, 1 to `most`.
 std::vector<int> texels_by_area(const World& world, std::span<const uint32_t> triangles, float size,
                                 int most);
