@@ -2,7 +2,10 @@
 // The window, driven by scripts on a display of its own; its pictures against the CPU's.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/files.h"
+#include "core/text.h"
 #include "image/io.h"
 #include "mix/preset.h"
 #include "package/test_package.h"
@@ -213,6 +216,37 @@ TEST_F(ViewTest, GoalsAreReached) {
   EXPECT_EQ(read_preset(path("fit.toml")).assignments.size(), 4u);
   EXPECT_EQ(test::run_sconce({"fit", path("x.sconce")}).code, 2);
   EXPECT_EQ(test::run_sconce({"fit", path("x.sconce"), "--lux", "1,2=3"}).code, 2);
+}
+
+TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
+  write_file(folder_ / "room.glb", write_glb(test::two_lamp_room(), "test"));
+  folder_.write("room.toml",
+                "[[plane]]\nname = \"desk\"\nat = \"floor+0.9\"\ngrid = 0.4\n"
+                "[[plane]]\nname = \"floor\"\nat = \"floor+0.01\"\ngrid = 0.4\n");
+  const auto baked = test::run_sconce(
+      {"bake", path("room.glb"), "-o", path("x.sconce"), "--density", "6", "--samples", "8", "--quiet"});
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  const auto outcome = view("plane desk\nset left=0.3 right=2\nfigures " + path("figures.csv") +
+                            "\nsettle\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = split(read_file(path("figures.csv")), '\n');
+  ASSERT_EQ(lines.size(), 4u);  // a head, two planes, nothing behind the last end of line
+  for (const auto& [line, name] : {std::pair{lines[1], "desk"}, {lines[2], "floor"}}) {
+    const std::vector<std::string> figures = split(line, ',');
+    EXPECT_EQ(figures.at(0), name);
+    const auto probed =
+        test::run_sconce({"probe", path("x.sconce"), "--plane", name, "left=0.3", "right=2", "--json"});
+    ASSERT_EQ(probed.code, 0) << probed.err;
+    const auto lux = nlohmann::json::parse(probed.out)["lux"];
+    std::size_t i = 2;
+    for (const char* figure : {"minimum", "average", "maximum", "uniformity"})
+      EXPECT_NEAR(parse_number(figures.at(i++)).value(), lux[figure].get<double>(),
+                  1e-5 * lux[figure].get<double>())
+          << figure;
+  }
+  const auto unknown = view("plane roof\n");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("baked: desk, floor"), std::string::npos) << unknown.err;
 }
 
 TEST_F(ViewTest, OtherRenderersPicturesHaveTheSameFaders) {

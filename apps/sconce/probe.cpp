@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
-#include "package/points.h"
 #include "probe_report.h"
 #include "scene/daylight.h"
 
@@ -43,11 +42,11 @@ double outside(const Scene& scene, const MixSpec& mix, std::vector<bool>& skies)
   return lux;
 }
 
-ProbePoints find_points(const Probing& job, const Bounds& bounds, const std::vector<PlaneLight>& baked) {
+ProbePoints find_points(const Probing& job, const Bounds& bounds, const std::vector<MeasuredPlane>& baked) {
   ProbePoints at;
   if (!job.plane.empty()) {
     std::vector<std::string> names;
-    for (const PlaneLight& plane : baked) names.push_back(plane.name);
+    for (const MeasuredPlane& plane : baked) names.push_back(plane.name);
     at.plane = parse_plane(job.plane, bounds, job.grid, names);
     at.points = at.plane->points();
     return at;
@@ -68,14 +67,15 @@ struct Measured {
 Measured measure(const Probing& job, const Package& package, const View& view, ProbePoints& at,
                  const Progress& progress) {
   const std::size_t groups = package.manifest().groups.size();
-  const std::vector<PlaneLight> planes = job.plane.empty() ? std::vector<PlaneLight>() : read_planes(package);
-  for (const PlaneLight& baked : planes) {
+  const std::vector<MeasuredPlane> planes =
+      job.plane.empty() ? std::vector<MeasuredPlane>() : baked_planes(package);
+  for (const MeasuredPlane& baked : planes) {
     if (baked.name != job.plane) continue;
-    at.plane = baked.plane;
-    at.points = baked.plane.points();
-    return {{groups, baked.samples, baked.values},
+    at.plane = baked.grid;
+    at.points = baked.grid.points();
+    return {baked.light,
             fmt::format("path tracing, all bounces, diffuse surfaces, baked with up to {} paths a point",
-                        baked.samples)};
+                        baked.light.samples)};
   }
   at = find_points(job, view.world().bounds, planes);
   if (job.from_probes) {

@@ -199,10 +199,19 @@ bool Driver::perform(const Action& action) {
     return v.begin_turn(arguments[0], count), true;
   }
   if (word == "plane") {
+    for (const MeasuredPlane& baked : s.opened->planes)
+      if (baked.name == arguments[0]) return v.show_plane(baked), frames_ = 1, true;
+    if (!parse_number(arguments[0])) {
+      std::vector<std::string> names;
+      for (const MeasuredPlane& baked : s.opened->planes) names.push_back(baked.name);
+      throw UsageError(where, "there is no plane '" + arguments[0] + "'",
+                       "a height in metres; baked: " + (names.empty() ? "none" : join(names, ", ")));
+    }
     s.plane.height = numbers(action, 0, 1)[0];
     if (arguments.size() > 1) s.plane.spacing = numbers(action, 1, 1)[0];
     return v.measure(), frames_ = 1, true;
   }
+  if (word == "figures") return v.write_figures(arguments[0]), true;
   if (word == "wish") {
     const auto at = numbers(action, 0, 3);
     const Vec3 position(at[0], at[1], at[2]),

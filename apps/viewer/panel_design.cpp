@@ -23,13 +23,46 @@ void figure(const char* label, const std::string& value, bool first) {
 
 }  // namespace
 
+/// What is known of baked planes follows the faders exactly: nothing is traced.
+void Viewer::baked_section() {
+  if (state_.opened->planes.empty()) return;
+  const MixSpec mix = state_.session->mix();
+  ImGui::PushFont(fonts().strong);
+  ImGui::TextUnformatted("Baked planes");
+  ImGui::PopFont();
+  constexpr const char* kHeads[] = {"lux", "average", "minimum", "maximum", "U0"};
+  if (!ImGui::BeginTable("planes", 5, ImGuiTableFlags_SizingStretchProp)) return;
+  for (const char* head : kHeads) ImGui::TableSetupColumn(head);
+  ImGui::TableHeadersRow();
+  for (const MeasuredPlane& baked : state_.opened->planes) {
+    ImGui::TableNextColumn();
+    const bool shown = state_.plane.shown && state_.plane.measured.name == baked.name;
+    if (ImGui::Selectable(baked.name.c_str(), shown, ImGuiSelectableFlags_SpanAllColumns)) {
+      if (shown)
+        state_.plane.shown = false;
+      else
+        show_plane(baked);
+    }
+    const LuxStatistics s = plane_statistics(baked.light, mix);
+    for (const std::string& value :
+         {fmt::format("{:.0f}", s.average), fmt::format("{:.0f}", s.minimum),
+          fmt::format("{:.0f}", s.maximum), fmt::format("{:.2f}", s.uniformity())}) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(value.c_str());
+    }
+  }
+  ImGui::EndTable();
+  ImGui::Dummy({0, px(6)});
+  ImGui::Separator();
+}
+
 void Viewer::plane_section() {
   Plane& plane = state_.plane;
   const MixSpec mix = state_.session->mix();
   ImGui::PushFont(fonts().strong);
   ImGui::TextUnformatted("Measuring plane");
   ImGui::PopFont();
-  bool shown = plane.shown;
+  const bool shown = plane.shown && plane.measured.name.empty();
   const float width = ImGui::GetContentRegionAvail().x;
   if (toggle("plane", shown ? "On" : "Off", shown, palette::kAccent, px(54))) {
     if (shown)
@@ -45,18 +78,19 @@ void Viewer::plane_section() {
   ImGui::SetNextItemWidth(-1);
   ImGui::DragFloat("##spacing", &plane.spacing, 0.01f, 0.05f, 10, "every %.2f m");
   again |= ImGui::IsItemDeactivatedAfterEdit();
-  if (again && plane.shown) measure();
-  if (plane.shown && plane.light.samples > 0) {
-    const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, unreached(plane.light)));
+  if (again && shown) measure();
+  const MeasuredLight& light = plane.measured.light;
+  if (shown && light.samples > 0) {
+    const LuxStatistics s = plane_statistics(light, mix);
     figure("average lux", fmt::format("{:.0f}", s.average), true);
     figure("minimum", fmt::format("{:.0f}", s.minimum), false);
     figure("maximum", fmt::format("{:.0f}", s.maximum), false);
     figure("uniformity", fmt::format("{:.2f}", s.uniformity()), false);
     ImGui::PushFont(fonts().small);
-    ImGui::TextDisabled("%s",
-                        fmt::format("{} x {} points, {} paths each{}", plane.grid.columns, plane.grid.rows,
-                                    plane.light.samples, measuring_.running() ? ", measuring" : "")
-                            .c_str());
+    ImGui::TextDisabled(
+        "%s", fmt::format("{} x {} points, {} paths each{}", plane.measured.grid.columns,
+                          plane.measured.grid.rows, light.samples, measuring_.running() ? ", measuring" : "")
+                  .c_str());
     ImGui::PopFont();
   }
   ImGui::Dummy({0, px(6)});
@@ -64,7 +98,7 @@ void Viewer::plane_section() {
 }
 
 void Viewer::design_panel() {
-  if (!state_.sheet) plane_section();
+  if (!state_.sheet) baked_section(), plane_section();
   const MixSpec mix = state_.session->mix();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::PushFont(fonts().strong);

@@ -125,8 +125,8 @@ void Viewer::overlays() {
   const Lens from = lens();
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
 
-  const Plane& plane = state_.plane;
-  if (plane.shown && plane.light.samples > 0) {
+  const MeasuredPlane& plane = state_.plane.measured;
+  if (state_.plane.shown && plane.light.samples > 0) {
     const std::vector<float> lux = lux_of(plane.light, mix);
     const std::vector<uint8_t> dark = unreached(plane.light);
     const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, dark));

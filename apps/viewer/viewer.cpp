@@ -143,7 +143,7 @@ void Viewer::take_results() {
   }
   if (auto opened = opening_.take())
     attempt([&] { std::visit([&](auto& what) { show(std::move(what)); }, *opened); });
-  if (auto light = measuring_.take()) state_.plane.light = std::move(*light);
+  if (auto light = measuring_.take()) state_.plane.measured.light = std::move(*light);
   if (auto light = tracing_.take()) traced_ = std::move(*light);
   if (state_.ready()) attempt([&] { light_lamps(); });
   for (const std::string& problem :
@@ -175,7 +175,11 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   state_.package = state_.opened->package.path();
   prepare_lamps();
   if (again) {
-    if (state_.plane.shown) measure();
+    if (!state_.plane.shown) return;
+    const std::string& name = state_.plane.measured.name;
+    const auto baked = std::find_if(state_.opened->planes.begin(), state_.opened->planes.end(),
+                                    [&](const MeasuredPlane& plane) { return plane.name == name; });
+    baked == state_.opened->planes.end() ? measure() : show_plane(*baked);
     return;
   }
   state_.camera = state_.opened->rays.camera("");
@@ -235,16 +239,37 @@ void Viewer::refine_reference() {
 void Viewer::measure() {
   Plane& plane = state_.plane;
   plane.shown = true;
-  plane.grid = horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
-  plane.light = {};
+  const MeasuringPlane grid =
+      horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
+  plane.measured = {{}, grid, {}};
   measuring_.start(
-      [opened = state_.opened, points = plane.grid.points()](const Progress& progress, const auto& publish) {
+      [opened = state_.opened, points = grid.points()](const Progress& progress, const auto& publish) {
         PointMeter meter(opened->rays, points, ReceiverKind::plane);
         for (int samples = 64; samples <= 2048; samples *= 2) {
           meter.pass(samples, progress);
           publish(meter.light());
         }
       });
+}
+
+void Viewer::show_plane(const MeasuredPlane& baked) {
+  measuring_.stop();
+  state_.plane.shown = true;
+  state_.plane.measured = baked;
+}
+
+void Viewer::write_figures(const fs::path& file) const {
+  std::string lines = "plane,points,minimum,average,maximum,uniformity\n";
+  const auto line = [&](const std::string& name, const MeasuredLight& light) {
+    const LuxStatistics s = plane_statistics(light, state_.session->mix());
+    lines += fmt::format("{},{},{},{},{},{}\n", name, light.points(), s.minimum, s.average, s.maximum,
+                         s.uniformity());
+  };
+  for (const MeasuredPlane& plane : state_.opened->planes) line(plane.name, plane.light);
+  const Plane& shown = state_.plane;
+  if (shown.shown && shown.measured.name.empty())
+    line(fmt::format("{} m", shown.height), shown.measured.light);
+  write_file(file, lines);
 }
 
 void Viewer::add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux) {

@@ -38,12 +38,11 @@ struct ViewRequest {
       bake;
 };
 
-/// A measuring plane that is on, and what was measured.
+/// The measuring plane that is in the picture, and what was measured.
 struct Plane {
   bool shown = false;
-  float height = 0.75f, spacing = 0.5f;
-  MeasuringPlane grid;
-  MeasuredLight light;
+  float height = 0.75f, spacing = 0.5f;  ///< of one that is traced
+  MeasuredPlane measured;                ///< without a name where it is traced
 };
 
 /// "300 lx here".
@@ -125,6 +124,9 @@ class Viewer {
   void keys();
   void set_look(LookKind look);
   void measure();
+  void show_plane(const MeasuredPlane& baked);
+  /// Figures of all planes as mixed, a line each, with a head. @throws Error
+  void write_figures(const std::filesystem::path& file) const;
   void forget_lamps();
   void prepare_lamps();
   void light_lamps();
@@ -175,6 +177,7 @@ class Viewer {
   void look_panel();
   void design_panel();
   void plane_section();
+  void baked_section();
   void overlays();
   void legend(ImDrawList& draw);
   /// A card with each group's share. @param light  of each group; @return where its headline begins

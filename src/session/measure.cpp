@@ -67,6 +67,19 @@ std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix, std::s
   return lux;
 }
 
+LuxStatistics plane_statistics(const MeasuredLight& light, const MixSpec& mix) {
+  return lux_statistics(lux_of(light, mix, unreached(light)));
+}
+
+std::vector<MeasuredPlane> baked_planes(const Package& package) {
+  std::vector<MeasuredPlane> planes;
+  for (PlaneLight& baked : read_planes(package))
+    planes.push_back({baked.name,
+                      baked.plane,
+                      {package.manifest().groups.size(), baked.samples, std::move(baked.values)}});
+  return planes;
+}
+
 std::vector<uint8_t> unreached(const MeasuredLight& light) {
   std::vector<uint8_t> dark;
   for (std::size_t point = 0; point < light.points(); ++point) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "package/points.h"
 #include "picture/render.h"
 #include "scene/measuring_plane.h"
 #include "solve/solver.h"
@@ -19,6 +20,16 @@ struct MeasuredLight {
   std::size_t points() const { return groups == 0 ? 0 : values.size() / groups; }
   Rgb mixed(std::size_t point, const MixSpec& mix) const;
 };
+
+/// A plane that was measured, and whose name it has in the package.
+struct MeasuredPlane {
+  std::string name;
+  MeasuringPlane grid;
+  MeasuredLight light;
+};
+
+/// The planes that were baked with the package, by name. @throws Error naming the damaged file
+std::vector<MeasuredPlane> baked_planes(const Package& package);
 
 /// Which points no light of any group reaches: those inside of furniture.
 std::vector<uint8_t> unreached(const MeasuredLight& light);
@@ -53,5 +64,7 @@ LuxStatistics lux_statistics(std::span<const float> lux);
 /// @param left_out  per point: 1 = not given; may be empty
 std::vector<float> lux_of(const MeasuredLight& light, const MixSpec& mix,
                           std::span<const uint8_t> left_out = {});
+/// Of a plane: all of its points but the unreached.
+LuxStatistics plane_statistics(const MeasuredLight& light, const MixSpec& mix);
 
 }  // namespace sconce

@@ -9,7 +9,8 @@ Opened::Opened(const std::filesystem::path& path)
     : package(Package::open(path)),
       rays(package),
       layers(read_layers(package)),
-      meter(package, rays.scene()) {}
+      meter(package, rays.scene()),
+      planes(baked_planes(package)) {}
 
 std::vector<Image> mixed_noise(const Opened& opened, const MixSpec& mix) {
   const Manifest& m = opened.package.manifest();

@@ -3,7 +3,7 @@
 
 #include "mix/encoded_layers.h"
 #include "mix/light_meter.h"
-#include "picture/render.h"
+#include "session/measure.h"
 
 namespace sconce {
 
@@ -18,6 +18,7 @@ struct Opened {
   View rays;
   EncodedLayers layers;
   LightMeter meter;
+  std::vector<MeasuredPlane> planes;  ///< baked with it
 };
 
 /// Relative standard error of a mix in percent, per page: groups taken as independent, so that squares add.
