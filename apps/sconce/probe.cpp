@@ -84,7 +84,7 @@ Measured measure(const Probing& job, const Package& package, const View& view, P
     MeasuredLight light{groups, 0, {}};
     for (const SurfacePoint& p : at.points)
       for (std::size_t g = 0; g < groups; ++g)
-        light.values.push_back(probes->part(p.position, p.shading_normal, g));
+        light.values.push_back(facing(probes->at(p.position, g), p.shading_normal));
     return {std::move(light), fmt::format("between probes {:.3g} m apart", probes->spacing)};
   }
   PointMeter meter(view, at.points, ReceiverKind::plane);

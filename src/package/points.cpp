@@ -121,16 +121,16 @@ Vec3 ProbeGrid::position(std::size_t probe) const {
                                  static_cast<float>(probe / x / y));
 }
 
-Rgb ProbeGrid::part(const Vec3& point, const Vec3& normal, std::size_t g) const {
+ProbeValue ProbeGrid::at(const Vec3& point, std::size_t g) const {
   std::array<int, 3> low{};
   Vec3 share(0);
   for (int axis = 0; axis < 3; ++axis) {
     const int last = size[static_cast<std::size_t>(axis)] - 1;
-    const float at = std::clamp((point[axis] - origin[axis]) / spacing, 0.0f, static_cast<float>(last));
-    low[static_cast<std::size_t>(axis)] = std::min(static_cast<int>(at), std::max(last - 1, 0));
-    share[axis] = at - static_cast<float>(low[static_cast<std::size_t>(axis)]);
+    const float place = std::clamp((point[axis] - origin[axis]) / spacing, 0.0f, static_cast<float>(last));
+    low[static_cast<std::size_t>(axis)] = std::min(static_cast<int>(place), std::max(last - 1, 0));
+    share[axis] = place - static_cast<float>(low[static_cast<std::size_t>(axis)]);
   }
-  Rgb sum;
+  ProbeValue sum{};
   float all = 0;
   for (int corner = 0; corner < 8; ++corner) {
     float weight = 1;
@@ -143,17 +143,30 @@ Rgb ProbeGrid::part(const Vec3& point, const Vec3& normal, std::size_t g) const 
     if (!(weight > 0)) continue;
     const auto probe = static_cast<std::size_t>((at[2] * size[1] + at[1]) * size[0] + at[0]);
     if (valid[probe] == 0) continue;
-    const ProbeValue& v = values[probe * groups + g];
-    sum += weight * (v[0] + normal.x * v[1] + normal.y * v[2] + normal.z * v[3]);
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * values[probe * groups + g][k];
     all += weight;
   }
-  return all > 0 ? sum * (1 / all) : Rgb();
+  if (all > 0)
+    for (Rgb& k : sum) k = k * (1 / all);
+  return sum;
+}
+
+ProbeValue ProbeGrid::mixed(const Vec3& point, std::span<const Rgb> weights) const {
+  ProbeValue sum{};
+  for (std::size_t g = 0; g < groups; ++g) {
+    const ProbeValue part = at(point, g);
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += weights[g] * part[k];
+  }
+  return sum;
+}
+
+Rgb facing(const ProbeValue& light, const Vec3& normal) {
+  return light[0] + normal.x * light[1] + normal.y * light[2] + normal.z * light[3];
 }
 
 Rgb ProbeGrid::illuminance(const Vec3& point, const Vec3& normal, std::span<const Rgb> weights) const {
-  Rgb sum;
-  for (std::size_t g = 0; g < groups; ++g) sum += weights[g] * part(point, normal, g);
-  return {std::max(0.0f, sum.r), std::max(0.0f, sum.g), std::max(0.0f, sum.b)};
+  const Rgb e = facing(mixed(point, weights), normal);
+  return {std::max(0.0f, e.r), std::max(0.0f, e.g), std::max(0.0f, e.b)};
 }
 
 std::map<std::string, Image> print_points(std::span<const PlaneLight> planes, const ProbeGrid* probes,

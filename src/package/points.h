@@ -38,14 +38,18 @@ struct ProbeGrid {
 
   std::size_t probes() const { return valid.size(); }
   Vec3 position(std::size_t probe) const;
-  /// Group g's part of illuminance(), which may be below 0.
-  Rgb part(const Vec3& point, const Vec3& normal, std::size_t g) const;
-  /// What a small surface at `point` receives that faces the unit `normal`, lux per channel: max(0, sum of
-  /// w_g (e_g + g_g . n)), trilinear between the valid ones of the eight probes around it; points outside
-  /// count as at the border. Black where none is valid.
-  /// @param weights  MixSpec::weights
+  /// Group g's light at `point`: trilinear between the valid ones of the eight probes around it; points
+  /// outside count as at the border. Black where none is valid.
+  ProbeValue at(const Vec3& point, std::size_t g) const;
+  /// Of all groups. @param weights  MixSpec::weights
+  ProbeValue mixed(const Vec3& point, std::span<const Rgb> weights) const;
+  /// What a small surface at `point` receives that faces the unit `normal`: facing(), 0 at least.
   Rgb illuminance(const Vec3& point, const Vec3& normal, std::span<const Rgb> weights) const;
 };
+
+/// e + g . n: what a small surface receives that faces the unit `normal`, lux per channel. Below 0 where the
+/// form has no better answer; light is cut there once it is mixed.
+Rgb facing(const ProbeValue& light, const Vec3& normal);
 
 /// Their files, by name. @param probes  may be null
 std::map<std::string, Image> print_points(std::span<const PlaneLight> planes, const ProbeGrid* probes,

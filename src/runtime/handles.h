@@ -7,12 +7,14 @@
 
 #include "core/c_message.h"
 #include "mix/mixer.h"
+#include "package/points.h"
 #include "runtime/sconce.h"
 
 struct sconce_package {
   sconce::Package package;
   std::unique_ptr<sconce::Mixer> mixer{};             ///< from the first mix on
   const std::vector<sconce::Image>* mixed = nullptr;  ///< of the mixer
+  std::optional<sconce::ProbeGrid> probes{};          ///< from when they are first asked for
 };
 
 namespace sconce {

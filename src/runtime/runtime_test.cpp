@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "package/points.h"
 #include "package/test_package.h"
 
 namespace sconce {
@@ -68,6 +69,45 @@ TEST_F(Runtime, MixesBySettings) {
   const char* const wrong[] = {"bb=1"};
   EXPECT_EQ(sconce_package_weights(package, wrong, 1, nullptr, weights, message, sizeof message), 1);
   EXPECT_NE(std::string(message).find("bb"), std::string::npos) << message;
+}
+
+// Two groups, two probes a metre apart along x: e and g_y of both groups, and 3/4 of the way from one to the
+// other.
+TEST_F(Runtime, ProbesTakeTheMix) {
+  ProbeGrid grid;
+  grid.origin = {1, 2, 3};
+  grid.size = {2, 1, 1};
+  grid.groups = 2;
+  grid.valid = {1, 1};
+  grid.values = {{Rgb(100), Rgb(0), Rgb(50), Rgb(0)},
+                 {Rgb(8, 0, 0), Rgb(0), Rgb(0), Rgb(4, 0, 0)},
+                 {Rgb(200), Rgb(0), Rgb(90), Rgb(0)},
+                 {Rgb(0), Rgb(0), Rgb(0), Rgb(0)}};
+  PackageContents contents = test_package(2, 1, 9, 5);
+  const auto files = print_points({}, &grid, contents.manifest.groups);
+  write_package(folder / "x.sconce", std::move(contents), files);
+  package = sconce_package_open((folder / "x.sconce").c_str(), message, sizeof message);
+  ASSERT_NE(package, nullptr) << message;
+  sconce_probes probes;
+  ASSERT_EQ(sconce_package_probes(package, &probes, message, sizeof message), 0) << message;
+  EXPECT_EQ(probes.size[0], 2);
+  EXPECT_EQ(probes.origin[2], 3);
+  EXPECT_EQ(probes.spacing, 1);
+  const float weights[] = {0.5f, 0.5f, 0.5f, 1, 2, 2}, at[] = {1.75f, 9, 3};
+  float light[12];
+  ASSERT_EQ(sconce_probe_light(package, weights, at, light, message, sizeof message), 0) << message;
+  EXPECT_NEAR(light[0], 0.5 * 175 + 0.25 * 8, 1e-4);
+  EXPECT_NEAR(light[1], 0.5 * 175, 1e-4);
+  EXPECT_NEAR(light[7], 0.5 * 80, 1e-4);  // g_y, green
+  EXPECT_NEAR(light[9], 0.25 * 4, 1e-4);  // g_z, red
+  const float down[] = {0, -1, 0}, skew[] = {0, 0.6f, 0.8f}, off[6] = {};
+  float rgb[3];
+  ASSERT_EQ(sconce_probe_irradiance(package, weights, at, skew, rgb, message, sizeof message), 0);
+  EXPECT_NEAR(rgb[0], light[0] + 0.6f * light[6] + 0.8f * light[9], 1e-4);
+  ASSERT_EQ(sconce_probe_irradiance(package, weights, at, down, rgb, message, sizeof message), 0);
+  EXPECT_NEAR(rgb[2], 0.5 * (175 - 80), 1e-4);
+  ASSERT_EQ(sconce_probe_irradiance(package, off, at, down, rgb, message, sizeof message), 0);
+  EXPECT_EQ(rgb[1], 0);
 }
 
 TEST_F(Runtime, ComposesShadersAndGivesTheirTexels) {
@@ -133,7 +173,10 @@ TEST_F(Runtime, MistakesAreOneLine) {
   const sconce_shader_params params = {"picture", "hlsl", nullptr, nullptr, 0, 0};
   EXPECT_EQ(sconce_shader_compose(package, &params, message, sizeof message), nullptr);
   EXPECT_NE(std::string(message).find("glsl450, glsl330, glsl300es"), std::string::npos) << message;
-  const float weights[] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+  const float weights[] = {1, 1, 1, 1, 1, 1, 1, 1, 1}, at[3] = {};
+  float light[12];
+  EXPECT_EQ(sconce_probe_light(package, weights, at, light, message, sizeof message), 1);
+  EXPECT_NE(std::string(message).find("bake --probes"), std::string::npos) << message;
   std::filesystem::remove(folder / "x.sconce/layers/a.0.exr");
   EXPECT_EQ(sconce_package_mix(package, weights, message, sizeof message), 1);
   EXPECT_NE(std::string(message).find("a.0.exr"), std::string::npos) << message;

@@ -65,6 +65,25 @@ int sconce_package_mix(sconce_package* package, const float* weights, char* mess
 /* A page of the last mix, height * width * RGB, lux; until the next mix. NULL before, or if there is none. */
 const float* sconce_package_mixed(const sconce_package* package, int page);
 
+/* ---- Probes: the same light for what moves (`sconce bake --probes 1`). ---- */
+
+typedef struct sconce_probes {
+  float origin[3]; /* of the first probe, m */
+  float spacing;   /* m, along the axes of scene.glb */
+  int size[3];     /* probes along x, y, z */
+} sconce_probes;
+
+/* Reads them, once. 0; or 1: the package has none, or a damaged file. */
+int sconce_package_probes(sconce_package* package, sconce_probes* probes, char* message, size_t message_size);
+/* Light at a point, mixed, for a shader: e.rgb, then g.rgb of x, of y and of z, lux. What faces the unit n
+ * there receives E = max(0, e + n.x g_x + n.y g_y + n.z g_z) and shows albedo * E / pi. Trilinear between the
+ * probes around; points outside count as at the border. 0, or 1. */
+int sconce_probe_light(sconce_package* package, const float* weights, const float position[3],
+                       float light[12], char* message, size_t message_size);
+/* That E, lux RGB. @param normal  unit */
+int sconce_probe_irradiance(sconce_package* package, const float* weights, const float position[3],
+                            const float normal[3], float rgb[3], char* message, size_t message_size);
+
 /* ---- Shaders that mix, and the textures they want. ---- */
 
 typedef struct sconce_shader sconce_shader;

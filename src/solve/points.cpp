@@ -59,6 +59,31 @@ bool is_free(const SolveContext& context, const Vec3& position) {
   return 2 * backs < kLooks;
 }
 
+/// Where the probes are along an axis: the first, and how many.
+struct Stand {
+  float first;
+  double count;
+};
+
+/// The middle of a flat scene is its floor, where no probe may be.
+Stand stand(const World& world, const Scene& scene, int axis, float spacing) {
+  const float low = world.bounds.lo[axis], length = world.bounds.hi[axis] - low;
+  if (length >= spacing / 4) {
+    const double count = std::max(1.0, std::round(static_cast<double>(length / spacing)));
+    return {low + (length - spacing * static_cast<float>(count - 1)) / 2, count};
+  }
+  double along = 0, against = 0;  // area that faces so, m2
+  for (std::size_t t = 0; t < world.size(); ++t) {
+    const auto faced = static_cast<double>(world.area(t) * world.face_normals[t][axis]);
+    (faced > 0 ? along : against) += std::abs(faced);
+    if (scene[world.materials[t]].double_sided) (faced > 0 ? against : along) += std::abs(faced);
+  }
+  const float middle = low + length / 2;
+  if (against <= along / 2) return {middle + spacing / 2, 1};
+  if (along <= against / 2) return {middle - spacing / 2, 1};
+  return {middle - spacing / 2, 2};
+}
+
 }  // namespace
 
 void bake_plane(PlaneLight& plane, const SolveContext& context, const BakeParams& params,
@@ -81,16 +106,14 @@ ProbeGrid bake_probes(float spacing, const SolveContext& context, const BakePara
   ProbeGrid grid;
   grid.spacing = spacing;
   grid.groups = context.scene.groups.size();
-  const Bounds& bounds = context.world.bounds;
   double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const float length = bounds.hi[axis] - bounds.lo[axis];
-    const double along = std::max(1.0, std::round(static_cast<double>(length / spacing)));
-    if (!((count *= along) <= static_cast<double>(kMostProbes)))
+    const Stand along = stand(context.world, context.scene, axis, spacing);
+    if (!((count *= along.count) <= static_cast<double>(kMostProbes)))
       throw UsageError("--probes", fmt::format("{} m gives too many probes", spacing),
                        fmt::format("a spacing that gives at most {}", kMostProbes));
-    grid.size[static_cast<std::size_t>(axis)] = static_cast<int>(along);
-    grid.origin[axis] = bounds.lo[axis] + (length - spacing * static_cast<float>(along - 1)) / 2;
+    grid.size[static_cast<std::size_t>(axis)] = static_cast<int>(along.count);
+    grid.origin[axis] = along.first;
   }
   grid.valid.resize(static_cast<std::size_t>(count));
   grid.values.resize(grid.valid.size() * grid.groups);

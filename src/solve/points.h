@@ -13,8 +13,9 @@ namespace sconce {
 void bake_plane(PlaneLight& plane, const SolveContext& context, const BakeParams& params,
                 const Progress& progress);
 
-/// Probes over the scene's bounds, half a spacing (or the middle) away from its sides. A probe whose rays
-/// mostly meet backs that no one may see is inside of something.
+/// Probes over the scene's bounds, half a spacing (or the middle) away from its sides. Along an axis in which
+/// the scene is flat they stand half a spacing before its surfaces, on both sides if those face both ways. A
+/// probe whose rays mostly meet backs that no one may see is inside of something.
 /// @param spacing  metres @throws UsageError for more than a million probes; Cancelled
 ProbeGrid bake_probes(float spacing, const SolveContext& context, const BakeParams& params,
                       const Progress& progress);

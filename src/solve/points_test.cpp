@@ -120,6 +120,32 @@ TEST(ProbeGrid, CoversTheSceneAndKnowsSolids) {
   EXPECT_THROW(bake_probes(0.001f, context(lit), params(8), {}), UsageError);
 }
 
+// A floor alone, under a lamp 1 m above its middle probe.
+TEST(ProbeGrid, BesideWhatIsFlat) {
+  for (const auto& [double_sided, layers] : {std::pair{false, 1}, {true, 2}}) {
+    Scene scene;
+    const auto black = add_material(scene, "black", Rgb(0));
+    scene.materials[black.value].double_sided = double_sided;
+    add_quad(scene, "floor", black, Vec3(-1.5f, 0, 1.5f), Vec3(3, 0, 0), Vec3(0, 0, -3));
+    Light bulb;
+    bulb.intensity = Rgb(100);
+    bulb.frame[3] = glm::vec4(0, 1.5f, 0, 1);
+    scene.lights.push_back(bulb);
+    const LitScene lit(std::move(scene), Grouping::one);
+    const ProbeGrid grid = bake_probes(1, context(lit), params(64), {});
+    EXPECT_EQ(grid.size, (std::array<int, 3>{3, layers, 3}));
+    const std::size_t top = grid.probes() / 9 == 2 ? 3 : 0;
+    EXPECT_EQ(grid.position(top), Vec3(-1, 0.5f, -1));
+    EXPECT_EQ(std::count(grid.valid.begin(), grid.valid.end(), 1), static_cast<int>(grid.probes()));
+    // e = E / 4 and g = E / 2 along y, E = 100 lx.
+    const ProbeValue light = grid.at({0, 0.5f, 0}, 0);
+    EXPECT_NEAR(light[0].g, 25, 1e-3);
+    EXPECT_NEAR(light[2].g, 50, 1e-3);
+    const ProbeValue below = grid.at({0, -0.5f, 0}, 0);
+    EXPECT_EQ(below[0].is_black(), layers == 2);
+  }
+}
+
 TEST(ProbeGrid, TrilinearWeightedAndCut) {
   ProbeGrid grid;
   grid.origin = {1, 2, 3};
