@@ -49,8 +49,9 @@ std::vector<std::vector<GroupValue>> own_values(const PreparedBake& bake, std::s
 
 /// All values as images. @return means and noise; the pages are moved into `layers`
 std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vector<GroupValue>> values,
-                            std::span<const float> areas, std::vector<std::vector<Image>>& layers,
-                            std::vector<Image>& noise, const Progress& progress) {
+                            std::span<const float> areas, const Seams* seams,
+                            std::vector<std::vector<Image>>& layers, std::vector<Image>& noise,
+                            const Progress& progress) {
   std::vector<std::string> channels;
   for (const LightGroup& group : bake.scene.groups) channels.push_back(group.name);
   for (int p = 0; p < bake.atlas.pages; ++p)
@@ -59,7 +60,7 @@ std::vector<Layer> assemble(const PreparedBake& bake, std::span<const std::vecto
   for (std::size_t g = 0; g < values.size(); ++g) {
     progress.at("layers", g, values.size());
     progress.check();
-    Layer& layer = result.emplace_back(assemble_layer(values[g], bake.atlas, bake.receivers, areas));
+    Layer& layer = result.emplace_back(assemble_layer(values[g], bake.atlas, bake.receivers, areas, seams));
     for (std::size_t p = 0; p < layer.noise.size() && g < channels.size(); ++p)
       for (std::size_t i = 0; i < layer.noise[p].pixels(); ++i)
         noise[p].data[i * channels.size() + g] = layer.noise[p].data[i];
@@ -146,11 +147,13 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
 
   std::vector<std::vector<GroupValue>> values = own_values(bake, states, progress);
   if (bake.job.denoise) {
-    assemble(bake, values, areas, contents.raw, contents.raw_noise, progress);
+    assemble(bake, values, areas, nullptr, contents.raw, contents.raw_noise, progress);
     values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress,
                      bake.scene.groups.size());
   }
-  const std::vector<Layer> layers = assemble(bake, values, areas, contents.layers, contents.noise, progress);
+  const Seams seams(bake.world, bake.tracer, atlas);
+  const std::vector<Layer> layers =
+      assemble(bake, values, areas, &seams, contents.layers, contents.noise, progress);
   const std::vector<GroupFlux> fluxes = group_flux(bake.scene, bake.lamps);
   contents.kept.resize(bake.scene.groups.size());
   for (uint32_t g = 0; g < bake.scene.groups.size(); ++g) {

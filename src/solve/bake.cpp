@@ -65,7 +65,7 @@ std::vector<GroupValue> collect_values(std::span<const BakeState> states, const 
 }
 
 Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, const TexelReceivers& receivers,
-                     std::span<const float> areas) {
+                     std::span<const float> areas, const Seams* seams) {
   Layer layer;
   const std::size_t page_texels =
       static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
@@ -94,6 +94,7 @@ Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, con
   layer.relative_noise = layer.mean_lux > 0 ? std::sqrt(squares / area_sum) / layer.mean_lux : 0;
   parallel_for(static_cast<std::size_t>(atlas.pages), 1,
                [&](std::size_t p) { fill_gaps(atlas, static_cast<int>(p), valid[p], layer.pages[p]); });
+  if (seams != nullptr) seams->close(layer.pages);
   return layer;
 }
 

@@ -2,7 +2,7 @@
 // Receivers in, tiles of values out.
 #pragma once
 
-#include "receive/atlas.h"
+#include "receive/seams.h"
 #include "solve/state.h"
 
 namespace sconce {
@@ -31,8 +31,9 @@ struct Layer {
 };
 /// @param values  per receiver
 /// @param areas   per receiver, m2
+/// @param seams   of the atlas, closed after that; null: texels stay as they were solved
 Layer assemble_layer(std::span<const GroupValue> values, const Atlas& atlas, const TexelReceivers& receivers,
-                     std::span<const float> areas);
+                     std::span<const float> areas, const Seams* seams);
 
 /// One layer's values of all receivers.
 /// @param states  their union must hold every tile, made with these params
