@@ -90,6 +90,30 @@ TEST_P(Panes, StackBeforeABulb) {
   }
 }
 
+// A texel of a lightmap, 10 cm of a floor under a bulb: behind a tinted pane E is its transmittance times
+// what it is without.
+TEST_P(Panes, ATexelBehindGlass) {
+  const Rgb tint(0.8f, 0.5f, 0.2f);
+  const auto texel = [&](int panes) {
+    Scene scene = stack(panes, [&](Scene& s) { return glass(s, tint); });
+    add_bulb(scene, Vec3(0, 3, 0), Rgb(90));
+    const LitScene lit(std::move(scene), Grouping::one);
+    Footprint footprint = Footprint::point(7, ReceiverKind::texel, kFloor);
+    footprint.pieces[0].p1 = Vec3(0, 0, 0.1f), footprint.pieces[0].p2 = Vec3(0.1f, 0, 0);
+    footprint.area = 0.005f;
+    BakeParams params;
+    params.samples = 1024;
+    std::vector<GroupValue> out(1);
+    find_solver(GetParam())
+        .prepare({lit.scene, lit.world, lit.tracer, lit.lamps}, params, {})
+        ->solve(footprint, out);
+    return out[0].illuminance;
+  };
+  const Rgb bare = texel(0);
+  EXPECT_NEAR(bare.g, 10, 0.03f);  // 90 cd at 3 m, up to 14 cm aside
+  expect_near(texel(1), tint * bare, 1e-4f);
+}
+
 // An even sky of 1 cd/m2 gives pi lx; panes of 100 m hide all of it but 2 x 0.5 / 50 rad above the horizon.
 TEST_P(Panes, StackBeforeTheSky) {
   const Rgb tint(0.9f, 0.5f, 0.25f);
