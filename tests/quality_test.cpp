@@ -73,6 +73,22 @@ TEST_F(Quality, WordsAreNoise) {
   EXPECT_EQ(path_bake("x.sconce", {}).manifest().options.at("quality").value, "normal");
 }
 
+// What a side file says of samples or time yields to any word of the command line on them.
+TEST_F(Quality, TheCommandLineWins) {
+  const auto samples = [&](const char* file, std::vector<std::string> more) {
+    folder_.write("room.toml", std::string("[options]\n") + file + "\n");
+    more.insert(more.end(),
+                {"--solver", "path", "--bounces", "0", "--quiet", "--force", "-o", path("x.sconce")});
+    bake(more);
+    return Package::open(path("x.sconce")).manifest().facts.at("samples");
+  };
+  EXPECT_EQ(samples("samples = 16", {}), "16");
+  EXPECT_EQ(samples("samples = 16", {"--quality", "draft"}), "up to 256, until 10 % noise");
+  EXPECT_EQ(samples("noise = \"1%\"", {"--samples", "24"}), "24");
+  EXPECT_EQ(samples("samples = 16", {"--noise", "20%"}), "up to 16384, until 20 % noise");
+  EXPECT_EQ(samples("time = \"5m\"", {"--samples", "8"}), "8");
+}
+
 TEST_F(Quality, SamplesAreWhatIsAskedFor) {
   bake({"--solver", "path", "--samples", "16", "-o", path("x.sconce"), "--quiet"});
   EXPECT_EQ(Package::open(path("x.sconce")).manifest().facts.at("samples"), "16");

@@ -108,6 +108,16 @@ std::size_t values_of(const PreparedBake& bake) {
   return bake.scene.groups.size() * coefficients(bake.job.params.basis);
 }
 
+/// Where the command line says how long texels are worked at, what a file says of that counts for nothing.
+void prefer_command_line(const Options& options, Given& given) {
+  const auto values = options.provenance();
+  const auto said = [&](const char* key) { return values.at(key).source == "command line"; };
+  if (!said("quality") && !said("samples") && !said("noise") && !said("time")) return;
+  if (!said("samples")) given.samples = 0;
+  if (!said("noise")) given.noise = 0;
+  if (!said("time")) given.time = 0;
+}
+
 /// Samples that fit the time; leaves the solver with them. All ranks together.
 int samples_in(double seconds, Solver& solver, const PreparedBake& bake, const Ranks& ranks) {
   if (!solver.set_samples(kBatches))
@@ -283,6 +293,7 @@ std::optional<int> read_request(int argc, const char* const* argv, Options& opti
   BakeJob& job = request.job;
   job.scene = fs::absolute(scene);
   apply_side_options(options, job.scene);
+  prefer_command_line(options, request.given);
 
   if (page < 0 || (page > 0 && page < 32) || page > 16384)
     throw UsageError("--atlas", fmt::format("{} is out of range", page), "32 to 16384");

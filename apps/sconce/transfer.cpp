@@ -4,6 +4,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "app.h"
 #include "core/error.h"
@@ -16,10 +17,12 @@ namespace sconce::app {
 
 namespace {
 
+/// Of those that change what is made: others would make bits differ that are the same.
 std::string given_options(const Options& options) {
+  const std::set<std::string> others{"PACKAGE", "resume", "quiet", "json", "threads", "config"};
   std::string text;
   for (const auto& [name, value] : options.provenance())
-    if (value.source != "default" && name != "resume") text += name + "=" + value.value + " ";
+    if (value.source != "default" && !others.contains(name)) text += name + "=" + value.value + " ";
   return trim(text);
 }
 
