@@ -20,6 +20,7 @@ namespace sconce {
 namespace {
 
 constexpr float kMissingTextureGrey = 0.5f;
+constexpr unsigned char kNothing = 16;  // opacity codes so near to 0 or 255 are meant so
 
 Rgb color_of(const aiMaterial& m, const char* key, unsigned type, unsigned index, const Rgb& otherwise) {
   aiColor3D c;
@@ -79,6 +80,36 @@ Id<Texture> AssimpMaterials::texture(const std::string& name) {
   return known_[name] = id;
 }
 
+Id<Texture> AssimpMaterials::cut_out(Id<Texture> color, const Texture& opacity, bool& halves) {
+  Texture out = color ? scene_[color] : opacity;
+  out.name += color ? " cut out by " + opacity.name : "";
+  out.file.clear(), out.mime.clear();
+  const Image8 &mask = opacity.pixels, *seen = color ? &scene_[color].pixels : nullptr;
+  const bool by_alpha = mask.channels == 4 &&
+                        std::any_of(mask.data.begin(), mask.data.end(),
+                                    [&, i = 0](unsigned char v) mutable { return i++ % 4 == 3 && v < 255; });
+  Image8& pixels = out.pixels;
+  pixels = {
+      std::max(mask.width, seen ? seen->width : 0), std::max(mask.height, seen ? seen->height : 0), 4, {}};
+  // The texel of `image` at the place of (x, y).
+  const auto at = [&](const Image8& image, int x, int y) {
+    const int u = x * image.width / pixels.width, v = y * image.height / pixels.height;
+    return &image.data[static_cast<std::size_t>((v * image.width + u) * image.channels)];
+  };
+  std::size_t between = 0;
+  for (int y = 0; y < pixels.height; ++y)
+    for (int x = 0; x < pixels.width; ++x) {
+      const unsigned char alpha = at(mask, x, y)[by_alpha ? 3 : 0];
+      for (int c = 0; c < 3; ++c)
+        pixels.data.push_back(seen != nullptr ? at(*seen, x, y)[c] : static_cast<unsigned char>(255));
+      pixels.data.push_back(alpha);
+      between += alpha > kNothing && alpha < 255 - kNothing ? 1 : 0;
+    }
+  halves = between > pixels.data.size() / 4 / 10;
+  scene_.textures.push_back(std::move(out));
+  return Id<Texture>(scene_.textures.size() - 1);
+}
+
 void AssimpMaterials::add(const aiMaterial& m) {
   Material out;
   aiString name;
@@ -109,9 +140,13 @@ void AssimpMaterials::add(const aiMaterial& m) {
     if (!slot(aiTextureType_DIFFUSE, out.base_color_texture)) out.base_color *= kMissingTextureGrey;
   }
   if (out.emits()) slot(aiTextureType_EMISSIVE, out.emission_texture);
-  if (!texture_name(m, aiTextureType_OPACITY).empty())
-    progress_.warn(file_.string() + ": material '" + out.name +
-                   "': its opacity map is ignored; it is treated as opaque");
+  TextureUse opacity;
+  if (!out.emits() && slot(aiTextureType_OPACITY, opacity) && opacity.texture) {
+    bool halves = false;
+    out.base_color_texture.texture =
+        cut_out(out.base_color_texture.texture, Texture(scene_[opacity.texture]), halves);
+    out.alpha_mode = halves || out.alpha < 1 ? Material::Alpha::blend : Material::Alpha::mask;
+  }
   // Winding in such files is a matter of luck; lamps keep their front, so that their flux is what Ke says.
   out.double_sided = !out.emits();
   scene_.materials.push_back(std::move(out));
@@ -120,7 +155,7 @@ void AssimpMaterials::add(const aiMaterial& m) {
 std::vector<fs::path> texture_files(const fs::path& file, const aiScene& read) {
   std::set<fs::path> out;
   for (unsigned i = 0; i < read.mNumMaterials; ++i)
-    for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE}) {
+    for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE, aiTextureType_OPACITY}) {
       const std::string name = texture_name(*read.mMaterials[i], type);
       if (name.empty() || read.GetEmbeddedTexture(name.c_str()) != nullptr) continue;
       if (const fs::path found = find_beside(file, name); is_file(found)) out.insert(found);

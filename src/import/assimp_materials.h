@@ -16,8 +16,8 @@ namespace sconce {
 /// The file that a scene of another system names: as it stands, or else beside the scene, in whatever case.
 std::filesystem::path find_beside(const std::filesystem::path& scene, std::string name);
 
-/// Materials as assimp reads them: diffuse and emissive colour and map, opacity (MTL: Kd, map_Kd, Ke, map_Ke,
-/// d). Textures are decoded once; missing ones are warnings.
+/// Materials as assimp reads them: diffuse and emissive colour and map, opacity and its map (MTL: Kd, map_Kd,
+/// Ke, map_Ke, d, map_d). Textures are decoded once; missing ones are warnings.
 class AssimpMaterials {
  public:
   /// @param file  the scene's @param read  holds embedded textures
@@ -29,6 +29,9 @@ class AssimpMaterials {
 
  private:
   Id<Texture> texture(const std::string& name);
+  /// The colour map, or white, with the opacity map in its alpha. @param halves  gets whether more than a
+  /// tenth is neither there nor not
+  Id<Texture> cut_out(Id<Texture> color, const Texture& opacity, bool& halves);
 
   const std::filesystem::path& file_;
   const aiScene& read_;

@@ -43,7 +43,7 @@ std::vector<fs::path> obj_files(const fs::path& obj) {
   for (const fs::path& mtl : mtl_files(obj)) {
     if (!is_file(mtl)) continue;
     out.insert(mtl);
-    for (const char* key : {"map_kd", "map_ke"})
+    for (const char* key : {"map_kd", "map_ke", "map_d"})
       for (const std::string& value : statements(mtl, key)) {
         // Options stand before the name, which may hold spaces: the longest tail that is a file.
         for (std::size_t at = 0; at != std::string::npos; at = value.find(' ', at + 1)) {

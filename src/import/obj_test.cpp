@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/test_data.h"
+#include "image/io.h"
 #include "import/test_files.h"
 #include "scene/world.h"
 
@@ -58,6 +59,39 @@ TEST(Obj, MissingMaterialFileIsNamed) {
   EXPECT_TRUE(w.any("gone.mtl is missing"));
   EXPECT_THROW(import_obj(folder.write("x.txt", "v 0 0 0")), NotMyFormat);
   EXPECT_THROW(import_scene(folder.write("empty.obj", "")), Error);
+}
+
+// Opacity in the red of a map of another size, beside a colour map and alone; many halves make a pane.
+TEST(Obj, OpacityMapsCutOut) {
+  const TemporaryFolder folder;
+  write_png(folder / "leaf.png", {2, 1, 3, {10, 20, 30, 40, 50, 60}});
+  write_png(folder / "shape.png", {4, 1, 3, {255, 0, 0, 0, 9, 9, 0, 9, 9, 255, 0, 0}});
+  write_png(folder / "veil.png", {2, 1, 3, {128, 128, 128, 0, 0, 0}});
+  folder.write(
+      "x.mtl",
+      "newmtl leaf\nKd 1 1 1\nmap_Kd leaf.png\nmap_d shape.png\nnewmtl veil\nKd 0.5 0.5 0.5\nmap_d veil.png\n"
+      "newmtl lost\nKd 0.5 0.5 0.5\nmap_d gone.png\n");
+  const auto path =
+      folder.write("x.obj",
+                   "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                   "usemtl leaf\nf 1/1 2/2 3/3\nusemtl veil\nf 1/1 2/2 3/3\nusemtl lost\nf 1/1 2/2 3/3\n");
+  Warnings w;
+  const Scene scene = import_scene(path, w.progress);
+  const auto material = [&](const char* name) -> const Material& {
+    return *std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const Material& m) { return m.name == name; });
+  };
+  const Material& leaf = material("leaf");
+  EXPECT_EQ(leaf.alpha_mode, Material::Alpha::mask);
+  EXPECT_EQ(scene[leaf.base_color_texture.texture].pixels.data,
+            (std::vector<unsigned char>{10, 20, 30, 255, 10, 20, 30, 0, 40, 50, 60, 0, 40, 50, 60, 255}));
+  const Material& veil = material("veil");
+  EXPECT_EQ(veil.alpha_mode, Material::Alpha::blend);
+  EXPECT_EQ(scene[veil.base_color_texture.texture].pixels.data,
+            (std::vector<unsigned char>{255, 255, 255, 128, 255, 255, 255, 0}));
+  EXPECT_EQ(material("lost").alpha_mode, Material::Alpha::opaque);
+  EXPECT_TRUE(w.any("gone.png is left out"));
+  EXPECT_EQ(scene_files(path).size(), 4u);  // what a bake's hash is of
 }
 
 // assimp would follow a null pointer there.
