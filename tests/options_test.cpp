@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "core/error.h"
+#include "core/test_toml.h"
 #include "process.h"
 #include "values.h"
 
@@ -141,6 +142,11 @@ TEST(Options, FileErrorsNameLineKeyAndChoices) {
             "side.toml:2: option 'atlas': takes one value, not a list");
   EXPECT_EQ(file_error("options = 3\n").find("side.toml:1: "), 0u);
   EXPECT_EQ(file_error("[options]\natlas = \n").find("side.toml:2: "), 0u);
+  for (const std::string& text : broken_toml()) {
+    const std::string line = file_error(text);
+    EXPECT_EQ(line.find("side.toml:"), 0u) << text.substr(0, 40) << ": " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
 }
 
 TEST(Options, HelpListsEverythingWithDefaults) {

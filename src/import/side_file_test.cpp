@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/kelvin.h"
+#include "core/test_toml.h"
 #include "image/io.h"
 #include "import/test_files.h"
 #include "scene/daylight.h"
@@ -221,7 +222,11 @@ TEST(SideFile, ErrorsNameLineKeyAndChoices) {
       << unknown;
   EXPECT_NE(room.error("[lights]\n").find("unknown key 'lights'"), std::string::npos);
   EXPECT_NE(room.error("[[light]]\nname = = 3\n").find("room.toml:2"), std::string::npos);
-  EXPECT_NE(room.error("[!\n").find("room.toml:1"), std::string::npos);
+  for (const std::string& text : broken_toml()) {
+    const std::string line = room.error(text);
+    EXPECT_NE(line.find("room.toml:"), std::string::npos) << text.substr(0, 40) << ": " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
   EXPECT_NE(room.error("[[light]]\ntype = \"lamp\"\n").find("point, spot, sun"), std::string::npos);
   EXPECT_NE(room.error("[[light]]\ntype = \"point\"\nintensity = 1\n").find("has no position"),
             std::string::npos);
