@@ -10,14 +10,13 @@ namespace sconce {
 inline constexpr float kLargestHalf = 65504.0f;
 inline constexpr float kSmallestNormalHalf = 0x1p-14f;
 
-/// Exact for every code; NaN payloads are kept.
+/// Exact for every code; NaN payloads are kept. Without branches, so that loops over it become vectors.
 constexpr float half_to_float(uint16_t h) {
-  const uint32_t sign = static_cast<uint32_t>(h & 0x8000u) << 16;
-  const uint32_t exponent = (h >> 10) & 31u, mantissa = h & 0x3ffu;
-  if (exponent == 31) return std::bit_cast<float>(sign | 0x7f800000u | (mantissa << 13));
-  if (exponent != 0) return std::bit_cast<float>(sign | ((exponent + 112) << 23) | (mantissa << 13));
-  const float magnitude = static_cast<float>(mantissa) * 0x1p-24f;
-  return sign != 0 ? -magnitude : magnitude;
+  const uint32_t sign = static_cast<uint32_t>(h & 0x8000u) << 16, rest = static_cast<uint32_t>(h & 0x7fffu)
+                                                                         << 13;
+  // Exponents are off by 112; subnormals become what they are by the same product.
+  const auto number = std::bit_cast<uint32_t>(std::bit_cast<float>(rest) * 0x1p112f);
+  return std::bit_cast<float>(sign | (rest >= 0x0f800000u ? rest | 0x7f800000u : number));
 }
 
 /// Rounded to nearest, ties to even; above 65519.996 infinity, as in IEEE 754. NaN stays NaN.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mix/encoded_layers.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
+#include "mix/weigh.h"
 
 namespace sconce {
 
@@ -16,6 +19,33 @@ void keep_packed(EncodedLayers& layers, const std::vector<Rgb>& colors) {
 }
 
 }  // namespace
+
+void EncodedLayers::layer(std::size_t group, std::vector<Image>& pages) const {
+  constexpr int kBand = 32;  // rows, which stay in a core's own cache
+  for (std::size_t t = 0; t < textures.size(); ++t) {
+    const auto at = std::find(textures[t].groups.begin(), textures[t].groups.end(), group);
+    if (at == textures[t].groups.end() || textures[t].coefficient != 0) continue;
+    const WeighTables tables(*textures[t].encoding.encoding);
+    if (tables.kind == WeighTables::Kind::none) {
+      pages = layer(group);
+      return;
+    }
+    std::vector<Rgb> weights(textures[t].groups.size());
+    weights[static_cast<std::size_t>(at - textures[t].groups.begin())] = colors[group];
+    pages.resize(images[t].size());
+    for (std::size_t p = 0; p < pages.size(); ++p) {
+      const EncodedImage& from = images[t][p];
+      Image& to = pages[p];
+      if (to.width != from.width || to.height != from.height) to = Image::rgb(from.width, from.height);
+      parallel_for(static_cast<std::size_t>((from.height + kBand - 1) / kBand), 1, [&](std::size_t band) {
+        const int first = static_cast<int>(band) * kBand, rows = std::min(kBand, from.height - first);
+        std::fill_n(to.at(0, first), 3 * from.width * rows, 0.0f);
+        const Weighted term{tables, from, weights, textures[t].encoding.luminance};
+        add_weighted({&term, 1}, first, rows, to.at(0, first));
+      });
+    }
+  }
+}
 
 std::size_t EncodedLayers::bytes() const {
   std::size_t sum = 0;

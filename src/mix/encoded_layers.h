@@ -21,6 +21,8 @@ struct EncodedLayers {
   std::size_t coefficients() const { return textures.back().coefficient + 1; }
   /// A group's layer, decoded: RGB, per page. @pre there is such a group
   std::vector<Image> layer(std::size_t group) const;
+  /// The same to rounding, by vectors and all threads, into what an earlier call has left.
+  void layer(std::size_t group, std::vector<Image>& pages) const;
   /// Codes of all pages.
   std::size_t bytes() const;
 };

@@ -11,14 +11,18 @@
 namespace sconce {
 
 struct Wishes::Equations {
-  Eigen::MatrixXd squares;  ///< A^T A
-  Eigen::VectorXd right;    ///< A^T b
-  double targets = 0;       ///< b^T b
+  static constexpr Eigen::Index kBlock = 128;  ///< rows are squared together, which is several times as fast
+  Eigen::MatrixXd squares;                     ///< A^T A, its lower half, without the columns of `rows`
+  Eigen::MatrixXd rows;
+  Eigen::Index pending = 0;  ///< of them
+  Eigen::VectorXd right;     ///< A^T b
+  double targets = 0;        ///< b^T b
 };
 
 Wishes::Wishes(std::size_t groups) : equations_(std::make_unique<Equations>()) {
   const auto n = static_cast<Eigen::Index>(groups);
   equations_->squares = Eigen::MatrixXd::Zero(n, n);
+  equations_->rows.resize(n, Equations::kBlock);
   equations_->right = Eigen::VectorXd::Zero(n);
 }
 Wishes::Wishes(Wishes&&) noexcept = default;
@@ -31,9 +35,14 @@ std::size_t Wishes::groups() const {
 void Wishes::add(std::span<const double> row, double target, double weight) {
   if (row.size() != groups()) throw Error({}, "a wish is of another number of groups");
   const Eigen::Map<const Eigen::VectorXd> a(row.data(), static_cast<Eigen::Index>(row.size()));
-  equations_->squares.selfadjointView<Eigen::Lower>().rankUpdate(a, weight);
-  equations_->right += weight * target * a;
-  equations_->targets += weight * target * target;
+  Equations& e = *equations_;
+  e.rows.col(e.pending++) = std::sqrt(weight) * a;
+  if (e.pending == Equations::kBlock) {
+    e.squares.selfadjointView<Eigen::Lower>().rankUpdate(e.rows);
+    e.pending = 0;
+  }
+  e.right += weight * target * a;
+  e.targets += weight * target * target;
 }
 
 namespace {
@@ -83,7 +92,9 @@ Eigen::VectorXd nonnegative(const Eigen::MatrixXd& h, const Eigen::VectorXd& c) 
 
 Fit fit(const Wishes& wishes, std::span<const double> power, double thrift) {
   const Wishes::Equations& e = *wishes.equations_;
-  const Eigen::MatrixXd h = e.squares.selfadjointView<Eigen::Lower>();
+  Eigen::MatrixXd lower = e.squares;
+  lower.selfadjointView<Eigen::Lower>().rankUpdate(e.rows.leftCols(e.pending));
+  const Eigen::MatrixXd h = lower.selfadjointView<Eigen::Lower>();
   Eigen::VectorXd price = Eigen::VectorXd::Ones(e.right.size());
   for (std::size_t g = 0; g < power.size(); ++g) price(static_cast<Eigen::Index>(g)) = power[g];
   if (price.sum() > 0) price /= price.sum();

@@ -136,5 +136,29 @@ TEST(Mixer, OneGroupIsItsLayer) {
   EXPECT_EQ(mixer.mix({{Rgb(1)}})[0].data, c.layers[0][0].data);
 }
 
+TEST(EncodedLayers, LayersByVectorsAreThePlainOnes) {
+  const std::vector<Rgb> colors{Rgb(0.5f, 1, 2), Rgb(1.2f, 1, 0.4f), Rgb(1)};
+  for (const char* name : {"f32", "f16", "exp8", "rgbe8", "srgbe8", "bc6h", "lum:f16", "lum:multi8"}) {
+    SCOPED_TRACE(name);
+    const EncodingChoice choice = parse_encoding(name);
+    const EncodedLayers layers =
+        encode_layers(std::vector(3, choice), 2, colors, [&](std::size_t g, int page) {
+          Image layer = test_layer(40, 36, 3, *choice.encoding);
+          for (float& v : layer.data)
+            v = std::abs(v) * static_cast<float>(1 + g + 3 * static_cast<std::size_t>(page));
+          return layer;
+        });
+    std::vector<Image> pages;
+    for (const std::size_t g : {2u, 0u, 1u}) {
+      layers.layer(g, pages);
+      const std::vector<Image> plain = layers.layer(g);
+      ASSERT_EQ(pages.size(), 2u);
+      for (std::size_t p = 0; p < 2; ++p)
+        for (std::size_t i = 0; i < plain[p].data.size(); ++i)
+          ASSERT_NEAR(pages[p].data[i], plain[p].data[i], 1e-6f * std::abs(plain[p].data[i])) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sconce

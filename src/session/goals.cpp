@@ -12,42 +12,96 @@ namespace sconce {
 
 namespace {
 
-constexpr int kFitSamples = 16;  // rays per pixel
-
 /// Whether a lamp or the sky is seen in a pixel or beside it: edges of what is brightest say most about where
 /// the rays of another picture went.
-std::vector<uint8_t> beside_lamps(const std::vector<CameraHits>& hits) {
-  const int width = hits.front().width, height = hits.front().height;
-  std::vector<uint8_t> found(hits.front().pixels.size(), 0);
-  for (const CameraHits& sample : hits)
-    for (int y = 0; y < height; ++y)
-      sample.for_each_shine(y, [&](const CameraHits::Shine& shine) {
-        const int x = static_cast<int>(shine.x);
-        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
-          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
-            found[static_cast<std::size_t>(j * width + i)] = 1;
-      });
+std::vector<uint8_t> beside_lamps(const CameraHits& hits) {
+  std::vector<uint8_t> found(hits.pixels.size(), 0);
+  for (int y = 0; y < hits.height; ++y)
+    hits.for_each_shine(y, [&](const CameraHits::Shine& shine) {
+      const int x = static_cast<int>(shine.x);
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, hits.height - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, hits.width - 1); ++i)
+          found[static_cast<std::size_t>(j * hits.width + i)] = 1;
+    });
   return found;
 }
 
+/// A picture's places that are compared: a coarse grid's middles, a whole number of pixels apart. Light
+/// hardly changes within a pixel, so that one ray says what is seen there.
+struct Places {
+  Camera camera;  ///< the grid is all that it sees
+  Image wanted;
+
+  Places(const Camera& of, const Image& target) : camera(of) {
+    if (target.stride() < 3) throw Error({}, "the picture to look like has no R, G and B");
+    const int step = std::clamp((target.width + kFitWidth - 1) / kFitWidth, 1, target.height);
+    wanted = Image::rgb(target.width / step, target.height / step);
+    const auto rows = static_cast<float>(wanted.height * step) / static_cast<float>(target.height);
+    camera.yfov = 2 * std::atan(rows * std::tan(0.5f * of.yfov));
+    const auto middle = [&](int i, int count, int size) {
+      return 0.5f * static_cast<float>(size + (2 * i + 1 - count) * step);
+    };
+    for (int y = 0; y < wanted.height; ++y)
+      for (int x = 0; x < wanted.width; ++x)
+        wanted.set_rgb(x, y,
+                       between_pixels(target, middle(x, wanted.width, target.width),
+                                      middle(y, wanted.height, target.height)));
+  }
+
+ private:
+  /// @param x, y  in pixels from the top left; their middles are at halves
+  static Rgb between_pixels(const Image& image, float x, float y) {
+    const float left = std::clamp(x - 0.5f, 0.0f, static_cast<float>(image.width - 1)),
+                top = std::clamp(y - 0.5f, 0.0f, static_cast<float>(image.height - 1));
+    const int i = std::min(static_cast<int>(left), std::max(image.width - 2, 0)),
+              j = std::min(static_cast<int>(top), std::max(image.height - 2, 0));
+    const int right = std::min(i + 1, image.width - 1), below = std::min(j + 1, image.height - 1);
+    const float u = left - static_cast<float>(i), v = top - static_cast<float>(j);
+    return (1 - v) * ((1 - u) * image.rgb_at(i, j) + u * image.rgb_at(right, j)) +
+           v * ((1 - u) * image.rgb_at(i, below) + u * image.rgb_at(right, below));
+  }
+};
+
 /// Pictures of every group alone at unit weight, of surfaces only.
-std::vector<Image> group_pictures(const std::vector<CameraHits>& hits, const EncodedLayers& layers,
-                                  const PictureParams& params) {
-  std::vector<Image> pictures;
-  const float share = 1 / static_cast<float>(params.samples);
-  for (std::size_t g = 0; g < layers.colors.size(); ++g) {
-    const std::vector<Image> pages = layers.layer(g);
-    Image& picture = pictures.emplace_back(Image::rgb(params.width, params.height));
-    parallel_for(static_cast<std::size_t>(params.height), 4, [&](std::size_t row) {
+std::vector<Image> group_pictures(const CameraHits& hits, const EncodedLayers& layers) {
+  std::vector<Image> pictures(layers.colors.size(), Image::rgb(hits.width, hits.height));
+  std::vector<Image> pages;
+  for (std::size_t g = 0; g < pictures.size(); ++g) {
+    layers.layer(g, pages);
+    parallel_for(static_cast<std::size_t>(hits.height), 8, [&](std::size_t row) {
       const int y = static_cast<int>(row);
-      std::vector<float> rgb(3 * static_cast<std::size_t>(params.width) + 1);
-      for (const CameraHits& sample : hits) {
-        shade_row(sample, y, pages, rgb.data());
-        for (std::size_t i = 0; i + 1 < rgb.size(); ++i) picture.at(0, y)[i] += share * rgb[i];
-      }
+      std::vector<float> rgb(3 * static_cast<std::size_t>(hits.width) + 1);
+      shade_row(hits, y, pages, rgb.data());
+      std::copy(rgb.begin(), rgb.end() - 1, pictures[g].at(0, y));
     });
   }
   return pictures;
+}
+
+constexpr int kRounds = 4;
+
+/// Edges, mirrors, whatever else gains do not explain: pixels that are off by several times the usual.
+void leave_out_strangers(std::span<const Image> parts, std::span<const Rgb> unit,
+                         std::span<const double> gains, const Image& wanted, std::vector<uint8_t>& left_out) {
+  constexpr float kTimes = 1.5f;
+  std::vector<float> off(wanted.pixels()), usual;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    Rgb sum;
+    for (std::size_t g = 0; g < unit.size(); ++g) {
+      const float* p = &parts[g].data[3 * i];
+      sum += static_cast<float>(gains[g]) * unit[g] * Rgb(p[0], p[1], p[2]);
+    }
+    const float* goal = &wanted.data[3 * i];
+    const Rgb difference = sum - Rgb(goal[0], goal[1], goal[2]);
+    off[i] = (std::abs(difference.r) + std::abs(difference.g) + std::abs(difference.b)) /
+             std::max(goal[0] + goal[1] + goal[2], 1e-6f);
+    if (left_out[i] == 0) usual.push_back(off[i]);
+  }
+  if (usual.empty()) return;
+  const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
+  std::nth_element(usual.begin(), middle, usual.end());
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i] > kTimes * *middle + 1e-4f) left_out[i] = 1;
 }
 
 }  // namespace
@@ -107,11 +161,18 @@ void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const R
 
 void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
                   std::span<const Rgb> unit, const Image& target, const Progress& progress) {
-  const Image wanted = fit_sized(target);
-  const PictureParams params{.width = wanted.width, .height = wanted.height, .samples = kFitSamples};
-  std::vector<CameraHits> hits;
-  for (int s = 0; s < params.samples; ++s) hits.push_back(view.hits(camera, params, s, progress));
-  wish_pixels(wishes, group_pictures(hits, layers, params), unit, wanted, beside_lamps(hits));
+  const Places places(camera, target);
+  const Image& wanted = places.wanted;
+  const CameraHits hits =
+      view.hits(places.camera, {.width = wanted.width, .height = wanted.height, .samples = 1}, 0, progress);
+  const std::vector<Image> parts = group_pictures(hits, layers);
+  std::vector<uint8_t> left_out = beside_lamps(hits);
+  for (int round = 0; round < kRounds; ++round) {
+    Wishes some(unit.size());
+    wish_pixels(some, parts, unit, wanted, left_out);
+    leave_out_strangers(parts, unit, fit(some).gains, wanted, left_out);
+  }
+  wish_pixels(wishes, parts, unit, wanted, left_out);
 }
 
 Image from_display(const Image8& picture, float grey) {
