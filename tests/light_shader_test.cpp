@@ -65,6 +65,16 @@ TEST_F(RelightByOpenGl, ExamplesAreTheLampsOfTheirNames) {
               "shader,file=" + example("sun.glsl") + ",direction=0.3,-0.2,-1,intensity=50,shadow=sun");
 }
 
+// Nothing stands before the back wall: with shadows or without it looks the same, direct light included.
+TEST_F(RelightByOpenGl, WithoutShadowsAsWithThem) {
+  const std::string lamp = "shader,file=" + example("point.glsl") + ",position=0,1.2,0,intensity=100";
+  const auto seen = [&](const std::string& more) {
+    return picture({lamp + more},
+                   {"--device", "gl", "--eye", "0,1.6,0.9", "--target", "0,1.6,-1", "--fov", "10"});
+  };
+  EXPECT_LT(error_of(seen(""), seen(",shadow=none")), 0.02);
+}
+
 // A slide that is red on the left throws red on the left: the wall behind is (a / pi) I / depth2.
 TEST_F(RelightByOpenGl, AProjectorThrowsItsSlide) {
   const Image8 slide{4, 1, 3, {255, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0, 255}};

@@ -2,7 +2,9 @@
 // The window, driven by scripts on a display of its own; its pictures against the CPU's.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -171,6 +173,60 @@ TEST_F(ViewTest, LampsAreDraggedAndTheirLightFollows) {
   const auto none = view("settle\ngrab left\n");
   EXPECT_EQ(none.code, 1);
   EXPECT_NE(none.err.find("bake --movable"), std::string::npos) << none.err;
+}
+
+// A lamp becomes a spot, and a shader that is edited meanwhile: `relight` says how it must look. A typo is
+// told, and the last good one goes on.
+TEST_F(ViewTest, LampsBecomeOthersAndShadersAreReadAgain) {
+  folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
+        {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
+    const auto made = test::run_sconce(words);
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  const std::string example = read_file(fs::path(SCONCE_SOURCE_DIR) / "examples/lights/point.glsl");
+  folder_.write("lamp.glsl", example);
+  const std::string kind = "kind \"lamp left\" ", at = "lamp \"lamp left\" 0,1.4,0.2\n";
+  // Written while the window waits, each when the picture before it is there.
+  const auto rewrite = [&](const std::string& after, const std::string& text) {
+    for (int i = 0; i < 3000 && !fs::exists(path(after)); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    folder_.write("lamp.glsl", text);
+  };
+  std::thread editor([&] {
+    rewrite("point.png", "vec3 light(vec3 P, vec3 N) { return vec3(50.0) * max(N.y, 0.0); }\n");
+    rewrite("up.png", "vec3 light(vec3 P, vec3 N) { return vec2(1.0); }\n");
+  });
+  const auto outcome = view(
+      "ev100 3\nset right=off\nsettle\n" + at + kind +
+      "spot,outer=40,intensity=60,kelvin=3000,target=0,0,0.2\nsettle\npicture " + path("spot.png") + "\n" +
+      kind + "shader,file=" + path("lamp.glsl") + ",intensity=60,kelvin=3000,shadow=none\nsettle\npicture " +
+      path("point.png") + "\nwait 3\nsettle\npicture " + path("up.png") + "\nwait 3\nsettle\npicture " +
+      path("kept.png") + "\nmoves " + path("moves.txt") + "\nscreenshot " + path("all.png") + "\n" + kind +
+      "own\nsettle\nmoves " + path("own.txt") + "\n" + kind + "spto\n");
+  editor.join();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("spto"), std::string::npos) << outcome.err;
+  const Image8 spot = png("spot.png");
+  folder_.write("lamp.glsl", example);
+  const auto expect_relit = [&](const Image8& picture, const std::string& lamp, const char* device) {
+    const auto relit = test::run_sconce(
+        {"relight", path("x.sconce"), "--others", "off", "--light", lamp + ",kelvin=3000,position=0,1.39,0.2",
+         "--ev100", "3", "--device", device, "--size",
+         std::to_string(spot.width) + "x" + std::to_string(spot.height), "-o", path("relit.png")});
+    ASSERT_EQ(relit.code, 0) << relit.err;
+    EXPECT_LE(mean_difference(picture, png("relit.png")), 2) << lamp;
+  };
+  expect_relit(spot, "spot,outer=40,intensity=60,target=0,0,0.2", "cpu");
+  expect_relit(png("point.png"), "shader,intensity=60,shadow=none,file=" + path("lamp.glsl"), "gl");
+  EXPECT_GT(mean_difference(spot, png("point.png")), 4);
+  EXPECT_GT(mean_difference(png("up.png"), png("point.png")), 4);
+  EXPECT_EQ(png("kept.png").data, png("up.png").data);
+  const std::string moves = read_file(path("moves.txt"));
+  EXPECT_NE(moves.find("lamp.glsl:1: "), std::string::npos) << moves;
+  EXPECT_EQ(read_file(path("own.txt")).find('#'), std::string::npos);
 }
 
 TEST_F(ViewTest, PresetsFadeAndFilesDrop) {

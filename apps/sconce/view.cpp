@@ -6,8 +6,10 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "import/lights.h"
 #include "live_bake.h"
 #include "picture_options.h"
+#include "shader_lamp.h"
 
 namespace sconce::app {
 
@@ -47,6 +49,8 @@ int run_view(int argc, const char* const* argv) {
   if (!groups_from.empty() && lower(std::filesystem::path(input).extension().string()) != ".exr")
     throw UsageError("option '--groups-from'", input + " is no picture", "an OpenEXR picture");
   request.bake = live_bake;
+  request.parse_light = [](const std::string& words) { return parse_light(words, words); };
+  request.parse_shader = parse_shader_lamp;
   const ThreadLimit threads(options.threads);
   viewer::show_window(request);
   return kDone;

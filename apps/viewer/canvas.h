@@ -45,6 +45,7 @@ class Canvas : public Screen {
 
   ImTextureID reference() const { return id_of(reference_display_.texture()); }
   Image linear() const override { return at_rest_ ? at_rest_linear_ : view_.linear(); }
+  const gpu::Geometry& geometry() const { return view_.geometry(); }
   static constexpr int kSamples = 16;
 
  private:

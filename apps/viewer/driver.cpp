@@ -93,6 +93,7 @@ bool Driver::lamp(const Action& action) {
   if (word == "moves") {
     std::string lines;
     for (const std::string& line : move_options(mover, s.session->mood().moved)) lines += line + "\n";
+    if (!mover.problem().empty()) lines += "# " + mover.problem() + "\n";
     return write_file(arguments[0], lines), true;
   }
   if (word == "home") return v.put_lamp_back(), frames_ = 1, true;
@@ -110,6 +111,10 @@ bool Driver::lamp(const Action& action) {
   }
   const std::vector<std::size_t> found = mover.find(arguments[0], where);
   s.lamps.chosen = found.front();
+  if (word == "kind") {
+    for (const std::size_t lamp : found) v.set_kind(lamp, arguments[1] == "own" ? "" : arguments[1]);
+    if (const std::string& problem = s.lamps.mover->problem(); !problem.empty()) throw Error(where, problem);
+  }
   if (word == "lamp") {
     const auto to = numbers(action, 1, 3);
     v.move_lamp(found.front(), {to[0], to[1], to[2]}, false);
@@ -221,7 +226,8 @@ bool Driver::perform(const Action& action) {
     return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values),
            true;
   }
-  if (word == "lamp" || word == "grab" || word == "tug" || word == "home" || word == "moves")
+  if (word == "lamp" || word == "kind" || word == "grab" || word == "tug" || word == "home" ||
+      word == "moves")
     return lamp(action);
   if (word == "seek") return v.seek(), frames_ = 1, true;
   if (word == "scene") return v.save_scene(arguments[0]), true;

@@ -41,7 +41,9 @@ void Viewer::prepare_lamps() {
 }
 
 void Viewer::light_lamps() {
-  if (auto movable = preparing_.take()) state_.lamps.mover = std::make_unique<LampMover>(*movable);
+  if (auto movable = preparing_.take())
+    state_.lamps.mover = std::make_unique<LampMover>(
+        *movable, [this](std::size_t lamp, const MovedLamp& state) { return other_lamp(lamp, state); });
   LampMover* mover = state_.lamps.mover.get();
   if (mover == nullptr) return;
   if (const auto fine = refining_.take()) {
@@ -49,7 +51,12 @@ void Viewer::light_lamps() {
     if (fine->inside)
       note("lamp '" + mover->movable().lamps.all()[fine->task.lamp].name + "' stands inside something");
   }
+  watch_shaders();
   mover->follow(state_.session->mood().moved);
+  if (const std::string problem = mover->problem(); problem != state_.lamps.problem) {
+    state_.lamps.problem = problem;
+    if (!problem.empty()) note(problem);
+  }
   const auto rough = mover->rough();
   if (!rough || refining_.running() || state_.lamps.grip != Grip::none) return;
   refining_.start([movable = mover->shared(), task = *rough](const Progress& progress, const auto& publish) {
@@ -60,7 +67,7 @@ void Viewer::light_lamps() {
 void Viewer::move_lamp(std::size_t lamp, const Vec3& to, bool gesture) {
   const Bounds& room = state_.opened->rays.world().bounds;
   Mood mood = state_.session->mood();
-  mood.moved[lamp] = glm::clamp(to, room.lo, room.hi);
+  mood.moved[lamp].at = glm::clamp(to, room.lo, room.hi);
   state_.session->change(mood, gesture ? fmt::format("lamp {}", lamp) : "");
 }
 

@@ -167,8 +167,10 @@ void Viewer::overlays() {
          fmt::format("{:.3g} cd/m\u00b2", r.luminance));
     text(draw, fonts().small, {x + px(112), y + px(22)}, palette::kDim,
          fmt::format("albedo {:.2f}", luminance(r.albedo)));
-    text(draw, fonts().small, {x, y + px(42)}, palette::kDim,
-         r.material.empty() ? r.object : r.object + " \u00b7 " + r.material);
+    text(draw, fonts().small, {x, y + px(42)}, state_.lamps_away() ? palette::kAccent : palette::kDim,
+         state_.lamps_away()  ? kAsBaked
+         : r.material.empty() ? r.object
+                              : r.object + " \u00b7 " + r.material);
   }
   draw.PopClipRect();
 }

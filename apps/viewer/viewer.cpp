@@ -104,6 +104,11 @@ void Viewer::frame(double wait) {
 }
 
 void Viewer::drop(const fs::path& file) {
+  if (ends_with_any(file, {".glsl"})) {
+    if (!state_.lamps.chosen)
+      throw Error(file.string(), "is a light shader: choose a lamp that is to become one");
+    return set_kind(*state_.lamps.chosen, "shader,file=" + file.string());
+  }
   if (ends_with_any(file, {".toml"}) && state_.session)
     return (void)state_.session->perform(
         {"preset", {file.string(), fmt::format("{}", state_.fade_seconds)}, "drop"});

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "gpu/lamp_shader.h"
 #include "image/frames.h"
 #include "session/background.h"
 #include "session/gizmo.h"
@@ -36,6 +37,10 @@ struct ViewRequest {
   std::function<void(const std::filesystem::path& scene, const Progress&,
                      const std::function<void(std::filesystem::path)>& publish)>
       bake;
+  /// A lamp in the words of `sconce relight --light`. @throws Error
+  std::function<Light(const std::string& words)> parse_light;
+  /// A light shader in the same words, `shader,file=...`. @throws Error
+  std::function<gpu::LampShader(const std::string& words)> parse_shader;
 };
 
 /// The measuring plane that is in the picture, and what was measured.
@@ -57,9 +62,13 @@ struct MovingLamps {
   std::unique_ptr<LampMover> mover;  ///< null until it is prepared, or where there is none
   std::optional<std::size_t> chosen;
   bool shown = true, held = false;
-  Grip grip = Grip::none;  ///< that is dragged
-  Vec3 start{0};           ///< where the lamp was when the drag began
-  Vec2 from{0};            ///< and the pointer
+  Grip grip = Grip::none;                                        ///< that is dragged
+  Vec3 start{0};                                                 ///< where the lamp was when the drag began
+  Vec2 from{0};                                                  ///< and the pointer
+  std::string problem;                                           ///< LampMover::problem() that was told
+  std::string words;                                             ///< of the kind, while they are typed
+  std::map<std::string, std::filesystem::file_time_type> files;  ///< of shaders, as they were read
+  double looked = 0;                                             ///< when they were looked at
 };
 
 /// How a picture lies in the window.
@@ -94,6 +103,8 @@ struct State {
   std::optional<Vec3> pivot;                   ///< while a drag turns around it
   double fade_seconds = 1;
 
+  /// Numbers that layers give know lamps where they were baked.
+  bool lamps_away() const { return lamps.mover != nullptr && lamps.mover->any(); }
   bool ready() const { return canvas != nullptr || sheet != nullptr; }
   Screen& screen() const { return sheet ? static_cast<Screen&>(*sheet) : *canvas; }
   FalseColor& scale() { return scales[look]; }
@@ -133,6 +144,13 @@ class Viewer {
   /// @param gesture  further moves of the same lamp are the same step of undo
   void move_lamp(std::size_t lamp, const Vec3& to, bool gesture);
   void put_lamp_back();
+  /// @param kind  see MovedLamp; "" = its own
+  void set_kind(std::size_t lamp, const std::string& kind);
+  /// What it has become. @throws Error
+  OtherLamp other_lamp(std::size_t lamp, const MovedLamp& state);
+  /// Light shaders whose files have changed are made anew.
+  void watch_shaders();
+  void lamp_section();
   /// @param at  the pointer, in the picture. @return whether it holds a lamp
   bool hold_lamp(Vec2 at);
   Lens lens() const;
@@ -218,6 +236,9 @@ class Viewer {
   std::optional<Hands> hands_;
   std::filesystem::path own_folder_;  ///< of what is baked; goes when the window does
 };
+
+/// What the window says beside numbers while lamps are elsewhere.
+inline constexpr const char* kAsBaked = "with lamps where they were baked";
 
 /// Opens the window and returns when it is closed, or when the script has ended.
 /// @throws Error: no display, old OpenGL, and in a script whatever goes wrong

@@ -90,6 +90,7 @@ void ShadowMap::draw(const Geometry& geometry, const Program& shader) const {
 void ShadowMap::bind(const Program& lamp, int unit) const {
   lamp.set("sconce_views", static_cast<int>(views_.size()));
   lamp.set("sconce_parallel", parallel_ ? 1 : 0);
+  lamp.set("sconce_shadow", unit);  // always: two kinds of samplers on one unit draw nothing
   if (views_.empty()) return;
   std::vector<Mat3> to, from;
   for (const Projection& view : views_) to.push_back(view.to_plane), from.push_back(view.from_plane());
@@ -97,7 +98,6 @@ void ShadowMap::bind(const Program& lamp, int unit) const {
   lamp.set("sconce_near", near_);
   lamp.set("sconce_to_plane", to);
   lamp.set("sconce_from_plane", from);
-  lamp.set("sconce_shadow", unit);
   depths_->bind(unit);
 }
 

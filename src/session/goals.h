@@ -28,8 +28,8 @@ void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const R
 Image fit_sized(const Image& image);
 inline constexpr int kFitWidth = 160;
 
-/// A picture of the package, in cd/m2, at places kFitWidth across. Left out are those at visible lamps and the
-/// sky, and what gains do not explain: edges, mirrors.
+/// A picture of the package, in cd/m2, at places kFitWidth across. Left out are those at visible lamps and
+/// the sky, and what gains do not explain: edges, mirrors.
 /// @param camera  that the picture was taken with
 /// @throws as fit_sized(), wish_pixels()
 void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
+#include "core/error.h"
 #include "relight/package_operator.h"
 
 namespace sconce {
@@ -28,6 +30,11 @@ MovedLamps Movable::alone(std::size_t lamp, const std::optional<Vec3>& at) const
                     {&move, at ? std::size_t{1} : 0});
 }
 
+MovedLamps Movable::alone(const Light& other) const {
+  const View& view = opened->rays;
+  return MovedLamps(view.scene(), view.world(), view.tracer(), {other}, {});
+}
+
 std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
   return with_indirect(fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp),
                        opened->package, opened->rays, op, bounces, lamp);
@@ -39,37 +46,72 @@ std::vector<std::size_t> LampMover::find(const std::string& name, const std::str
 
 std::optional<Vec3> LampMover::place(std::size_t lamp, const MovedPlaces& moved) const {
   const auto it = moved.find(lamp);
-  return it != moved.end() ? it->second : place_of(movable_->lamps.all().at(lamp));
+  return it != moved.end() ? it->second.at : place_of(movable_->lamps.all().at(lamp));
 }
 
 void LampMover::follow(const MovedPlaces& moved) {
   version_ += std::erase_if(moved_, [&](const auto& item) { return !moved.contains(item.first); });
-  for (const auto& [lamp, at] : moved) {
+  for (const auto& [lamp, state] : moved) {
     Moved& entry = moved_[lamp];
-    if (entry.before.light.empty()) entry.before = {{}, movable_->light(movable_->alone(lamp, {}), false)};
-    if (!entry.now.light.empty() && entry.now.at == at) continue;
-    entry.now = {at, movable_->light(movable_->alone(lamp, at), false)};
+    if (entry.before.light.empty()) entry.before.light = movable_->light(movable_->alone(lamp, {}), false);
+    const bool again = std::exchange(entry.now.stale, false);
+    if (!again && entry.wrong == state) continue;
+    if (!again && !entry.now.light.empty() && entry.now.state == state) {
+      entry.wrong.reset();
+      continue;
+    }
+    try {
+      entry.now = lit(lamp, state);
+      entry.wrong.reset();
+    } catch (const Error& error) {
+      entry.wrong = state, entry.why = error.what();
+      if (entry.now.light.empty()) entry.now = lit(lamp, {state.at});
+    }
     ++version_;
   }
+}
+
+LampMover::Lit LampMover::lit(std::size_t lamp, const MovedLamp& state) const {
+  Lit made;
+  made.state = state;
+  if (state.kind.empty() || !other_) {
+    made.light = movable_->light(movable_->alone(lamp, state.at), false);
+    return made;
+  }
+  OtherLamp other = other_(lamp, state);
+  if (auto* light = std::get_if<std::vector<Rgb>>(&other)) {
+    made.light = std::move(*light), made.fine = true;
+    return made;
+  }
+  made.other = std::get<Light>(other);
+  made.light = movable_->light(movable_->alone(*made.other), false);
+  return made;
+}
+
+std::string LampMover::problem() const {
+  for (const auto& [lamp, entry] : moved_)
+    if (entry.wrong) return entry.why;
+  return {};
 }
 
 std::optional<LampMover::Task> LampMover::rough() const {
   for (const auto& [lamp, entry] : moved_)
     for (const Lit* lit : {&entry.now, &entry.before})
-      if (!lit->fine) return Task{lamp, lit->at};
+      if (!lit->fine) return Task{lamp, lit->state, lit->other};
   return std::nullopt;
 }
 
 LampMover::Fine LampMover::light(const Movable& movable, const Task& task, const Progress& progress) {
-  const MovedLamps lamp = movable.alone(task.lamp, task.at);
-  return {task, movable.light(lamp, true, progress), task.at && !lamp.buried().empty()};
+  const std::optional<Vec3> at = task.state ? std::optional(task.state->at) : std::nullopt;
+  const MovedLamps lamp = task.other ? movable.alone(*task.other) : movable.alone(task.lamp, at);
+  return {task, movable.light(lamp, true, progress), at && !lamp.buried().empty()};
 }
 
 void LampMover::refine(const Fine& fine) {
   const auto it = moved_.find(fine.task.lamp);
   if (it == moved_.end()) return;
   for (Lit* lit : {&it->second.now, &it->second.before})
-    if (lit->at == fine.task.at) *lit = {fine.task.at, fine.light, true}, ++version_;
+    if (lit->state == fine.task.state && !lit->stale) lit->light = fine.light, lit->fine = true, ++version_;
 }
 
 std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {
@@ -100,9 +142,9 @@ std::vector<Image> LampMover::pages(Mixer& mixer, const MixSpec& mix) const {
 
 std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved) {
   std::vector<std::string> out;
-  for (const auto& [lamp, at] : moved)
-    out.push_back(
-        fmt::format("{}={:.4f},{:.4f},{:.4f}", mover.movable().lamps.all()[lamp].name, at.x, at.y, at.z));
+  for (const auto& [lamp, state] : moved)
+    out.push_back(fmt::format("{}={:.4f},{:.4f},{:.4f}{}", mover.movable().lamps.all()[lamp].name, state.at.x,
+                              state.at.y, state.at.z, state.kind.empty() ? "" : "  # as " + state.kind));
   return out;
 }
 

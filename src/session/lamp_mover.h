@@ -3,6 +3,9 @@
 // light on texels, so that every look, exposure and camera follows.
 #pragma once
 
+#include <functional>
+#include <variant>
+
 #include "mix/mixer.h"
 #include "relight/texel_light.h"
 #include "session/opened.h"
@@ -20,6 +23,8 @@ struct Movable {
   /// A lamp alone, at unit weight.
   /// @param at  where its middle is; none: where it was baked
   MovedLamps alone(std::size_t lamp, const std::optional<Vec3>& at) const;
+  /// One that is none of the scene's.
+  MovedLamps alone(const Light& other) const;
   /// Its light on the operator's texels, direct and indirect, lux.
   /// @param fine  by many shadow rays for each texel, else by one
   std::vector<Rgb> light(const MovedLamps& lamp, bool fine, const Progress& progress = {}) const;
@@ -32,9 +37,15 @@ struct Movable {
   Lamps lamps;
 };
 
+/// What a lamp has become: one that rays know, or its light on the operator's texels, lux, at unit weight.
+using OtherLamp = std::variant<Light, std::vector<Rgb>>;
+
 class LampMover {
  public:
-  explicit LampMover(std::shared_ptr<const Movable> movable) : movable_(std::move(movable)) {}
+  /// @param other  makes lamps of other kinds; throws Error where the kind is not understood
+  explicit LampMover(std::shared_ptr<const Movable> movable,
+                     std::function<OtherLamp(std::size_t, const MovedLamp&)> other = {})
+      : movable_(std::move(movable)), other_(std::move(other)) {}
   const Movable& movable() const { return *movable_; }
   const std::shared_ptr<const Movable>& shared() const { return movable_; }
 
@@ -43,12 +54,18 @@ class LampMover {
   /// The middle of a lamp; none where it shines from everywhere.
   std::optional<Vec3> place(std::size_t lamp, const MovedPlaces& moved) const;
 
-  /// Lights lamps that went elsewhere since, roughly.
+  /// Lights lamps that went elsewhere or became others since, roughly. What cannot be made stays as it was
+  /// last.
   void follow(const MovedPlaces& moved);
+  /// The kind of this lamp is made anew: a file of it has changed.
+  void remake(std::size_t lamp) { moved_[lamp].now.stale = true; }
+  /// Why a lamp is not what it is asked to be; empty where all are.
+  std::string problem() const;
   /// What is only roughly lit; none where nothing is.
   struct Task {
     std::size_t lamp;
-    std::optional<Vec3> at;
+    std::optional<MovedLamp> state;  ///< none: as it was baked
+    std::optional<Light> other{};
   };
   std::optional<Task> rough() const;
   struct Fine {
@@ -71,16 +88,21 @@ class LampMover {
 
  private:
   struct Lit {
-    std::optional<Vec3> at;
+    std::optional<MovedLamp> state;
+    std::optional<Light> other;
     std::vector<Rgb> light;
-    bool fine = false;
+    bool fine = false, stale = false;
   };
   struct Moved {
     Lit before, now;
+    std::optional<MovedLamp> wrong;  ///< what it was asked to be in vain
+    std::string why;
   };
+  Lit lit(std::size_t lamp, const MovedLamp& state) const;
   std::vector<MovedGroup> taken(MixSpec& mix) const;
 
   std::shared_ptr<const Movable> movable_;
+  std::function<OtherLamp(std::size_t, const MovedLamp&)> other_;
   std::map<std::size_t, Moved> moved_;
   uint64_t version_ = 0;
 };

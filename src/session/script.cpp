@@ -38,6 +38,8 @@ constexpr ActionRow kRows[] = {
     {"lamp", "LAMP X,Y,Z", "a lamp leaves its layer and shines from there", 2, 2},
     {"grab", "LAMP", "shows the handles of a lamp", 1, 1},
     {"tug", "x|y|z|floor DX,DY", "the mouse drags that handle of the lamp by so many pixels", 2, 2},
+    {"kind", "LAMP own|WORDS", "a lamp becomes another one: point, spot,outer=40, shader,file=barn.glsl", 2,
+     2},
     {"home", "", "the lamp goes back to its layer", 0, 0},
     {"moves", "FILE", "writes where lamps went, as `sconce relight --move` takes it", 1, 1},
     {"like", "FILE", "a goal: look like this picture", 1, 1},

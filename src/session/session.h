@@ -15,8 +15,16 @@
 
 namespace sconce {
 
-/// Lamps out of their layers: where their middles went, by their number in Lamps::all().
-using MovedPlaces = std::map<std::size_t, Vec3>;
+/// A lamp out of its layer.
+struct MovedLamp {
+  Vec3 at{0};          ///< where its middle went
+  std::string kind{};  ///< that it has become, in the words of `sconce relight --light`, without a place; ""
+                       ///< = its own
+
+  bool operator==(const MovedLamp&) const = default;
+};
+/// By their number in Lamps::all().
+using MovedPlaces = std::map<std::size_t, MovedLamp>;
 
 /// What a preset keeps, but for the camera; and where lamps went.
 struct Mood {
