@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -27,6 +28,25 @@ class ViewTest : public testing::Test {
         test::run_sconce({"bake", (fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb").string(), "-o",
                           path("x.sconce"), "--atlas", "256", "--samples", "8", "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  /// Two lamps and an operator.
+  void bake_movable() {
+    folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
+          {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
+      const auto made = test::run_sconce(words);
+      ASSERT_EQ(made.code, 0) << made.err;
+    }
+  }
+  /// Does the work as soon as the window has written that picture.
+  std::thread after(const std::string& picture, const std::function<void()>& work) const {
+    return std::thread([this, picture, work] {
+      for (int i = 0; i < 3000 && !fs::exists(path(picture)); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      work();
+    });
   }
   test::Outcome view(const std::string& script, const std::string& input = "x.sconce",
                      const std::vector<std::string>& options = {}) {
@@ -134,13 +154,7 @@ TEST_F(ViewTest, HandsMoveFadersAndKeysTakeThemBack) {
 
 // A lamp that was dragged shines as `relight --move` says, and undo takes it back.
 TEST_F(ViewTest, LampsAreDraggedAndTheirLightFollows) {
-  folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
-        {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
-    const auto made = test::run_sconce(words);
-    ASSERT_EQ(made.code, 0) << made.err;
-  }
+  bake_movable();
   const auto outcome =
       view("ev100 3\nsettle\npicture " + path("home.png") + "\nlamp \"lamp left\" 0,1.4,0\nsettle\npicture " +
            path("there.png") + "\ntug y 0,60\nsettle\npicture " + path("tugged.png") + "\nmoves " +
@@ -178,27 +192,15 @@ TEST_F(ViewTest, LampsAreDraggedAndTheirLightFollows) {
 // A lamp becomes a spot, and a shader that is edited meanwhile: `relight` says how it must look. A typo is
 // told, and the last good one goes on.
 TEST_F(ViewTest, LampsBecomeOthersAndShadersAreReadAgain) {
-  folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
-        {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
-    const auto made = test::run_sconce(words);
-    ASSERT_EQ(made.code, 0) << made.err;
-  }
+  bake_movable();
   const std::string example = read_file(fs::path(SCONCE_SOURCE_DIR) / "examples/lights/point.glsl");
   folder_.write("lamp.glsl", example);
   const std::string kind = "kind \"lamp left\" ", at = "lamp \"lamp left\" 0,1.4,0.2\n";
-  // Written while the window waits, each when the picture before it is there.
-  const auto rewrite = [&](const std::string& after, const std::string& text) {
-    for (int i = 0; i < 3000 && !fs::exists(path(after)); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    folder_.write("lamp.glsl", text);
-  };
-  std::thread editor([&] {
-    rewrite("point.png", "vec3 light(vec3 P, vec3 N) { return vec3(50.0) * max(N.y, 0.0); }\n");
-    rewrite("up.png", "vec3 light(vec3 P, vec3 N) { return vec2(1.0); }\n");
+  std::thread editor = after("point.png", [&] {
+    folder_.write("lamp.glsl", "vec3 light(vec3 P, vec3 N) { return vec3(50.0) * max(N.y, 0.0); }\n");
   });
+  std::thread careless = after(
+      "up.png", [&] { folder_.write("lamp.glsl", "vec3 light(vec3 P, vec3 N) { return vec2(1.0); }\n"); });
   const auto outcome = view(
       "ev100 3\nset right=off\nsettle\n" + at + kind +
       "spot,outer=40,intensity=60,kelvin=3000,target=0,0,0.2\nsettle\npicture " + path("spot.png") + "\n" +
@@ -206,7 +208,7 @@ TEST_F(ViewTest, LampsBecomeOthersAndShadersAreReadAgain) {
       path("point.png") + "\nwait 3\nsettle\npicture " + path("up.png") + "\nwait 3\nsettle\npicture " +
       path("kept.png") + "\nmoves " + path("moves.txt") + "\nscreenshot " + path("all.png") + "\n" + kind +
       "own\nsettle\nmoves " + path("own.txt") + "\n" + kind + "spto\n");
-  editor.join();
+  editor.join(), careless.join();
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.err.find("spto"), std::string::npos) << outcome.err;
   const Image8 spot = png("spot.png");
@@ -346,6 +348,24 @@ TEST_F(ViewTest, OtherRenderersPicturesHaveTheSameFaders) {
   const auto plain = view("settle\npicture " + path("p.png") + "\n", "plain.exr");
   EXPECT_EQ(plain.code, 1);
   EXPECT_NE(plain.err.find("light-group"), std::string::npos) << plain.err;
+}
+
+// What is in memory goes on; what asks for the files says which of them is damaged.
+TEST_F(ViewTest, PackagesMayBeDamagedWhileTheyAreOpen) {
+  bake_movable();
+  std::thread vandal = after("first.png", [&] {
+    for (const auto& entry : fs::recursive_directory_iterator(path("x.sconce")))
+      if (entry.is_regular_file()) fs::resize_file(entry.path(), 100);
+  });
+  const auto outcome = view("ev100 3\nsettle\npicture " + path("first.png") +
+                            "\nwait 3\nset right=off\nlamp \"lamp left\" 0,1.4,0\nsettle\npicture " +
+                            path("second.png") + "\nscene " + path("relit.glb") + "\n");
+  vandal.join();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("scene.glb: is damaged"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_GT(mean_difference(png("second.png"), png("first.png")), 4);
+  EXPECT_FALSE(fs::exists(path("relit.glb")));
 }
 
 TEST_F(ViewTest, BadInputIsOneLine) {

@@ -9,7 +9,7 @@
 
 namespace sconce {
 
-/// Arrays may lie in a mapped file; whoever made the rows keeps them alive.
+/// Arrays may lie in a file's bytes; whoever made the rows keeps them alive.
 struct ClusterRows {
   static constexpr std::size_t kRank = WaveletRows::kBlock, kLanes = 16;
 

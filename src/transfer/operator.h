@@ -28,7 +28,7 @@ Rgb unpack_albedo(const std::array<uint16_t, 4>& packed);
 
 enum class OperatorReceivers : uint32_t { texels, pixels, vertices };
 
-/// Arrays may lie in a mapped file, which `owner` keeps.
+/// Arrays may lie in the bytes of a file, which `owners` keep.
 struct Operator {
   OperatorReceivers kind = OperatorReceivers::texels;
   int width = 0, height = 0, pages = 0;  ///< of the lightmap or the picture (pages 1); vertices x 1 x 1
@@ -84,7 +84,7 @@ uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, 
 
 /// Writes beside and renames. @throws Error
 void write_operator(const std::filesystem::path& path, const Operator& op);
-/// Maps the file. @param check  its checksum, too; reads all of it
+/// @param check  its checksum, too; reads all of it
 /// @throws Error: missing, truncated, damaged, another version (both named); NotMyFormat
 Operator open_operator(const std::filesystem::path& path, bool check = true);
 

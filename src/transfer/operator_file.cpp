@@ -2,12 +2,12 @@
 // docs/operator-format.md
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finite.h"
 #include "core/hash.h"
-#include "core/mapped_file.h"
 #include "transfer/operator.h"
 
 namespace sconce {
@@ -116,6 +116,23 @@ bool finite(std::span<const T> values) {
   return true;
 }
 
+/// A copy that stays whatever becomes of the file: a window may hold it for hours.
+class AlignedBytes {
+ public:
+  explicit AlignedBytes(std::string_view bytes)
+      : size_(bytes.size()), data_(static_cast<char*>(::operator new(size_ + 1, std::align_val_t(kAlign)))) {
+    std::memcpy(data_, bytes.data(), size_);
+  }
+  ~AlignedBytes() { ::operator delete(data_, std::align_val_t(kAlign)); }
+  AlignedBytes(const AlignedBytes&) = delete;
+  AlignedBytes& operator=(const AlignedBytes&) = delete;
+  std::string_view bytes() const { return {data_, size_}; }
+
+ private:
+  std::size_t size_;
+  char* data_;
+};
+
 }  // namespace
 
 void write_operator(const std::filesystem::path& path, const Operator& op) {
@@ -154,7 +171,7 @@ void write_operator(const std::filesystem::path& path, const Operator& op) {
 
 Operator open_operator(const std::filesystem::path& path, bool check) {
   const std::string where = path.string();
-  auto file = std::make_shared<MappedFile>(path);
+  const auto file = std::make_shared<const AlignedBytes>(read_file(path));
   const std::string_view bytes = file->bytes();
   Head head{};
   if (bytes.size() < sizeof head || bytes.substr(0, kMagic.size()) != kMagic)
@@ -199,7 +216,7 @@ Operator open_operator(const std::filesystem::path& path, bool check) {
     array = {reinterpret_cast<T*>(bytes.data() + entry.offset), entry.bytes / sizeof(T)};
   });
   if (!fits(op)) throw broken;
-  op.owners.push_back(std::move(file));
+  op.owners.push_back(file);
   return op;
 }
 

@@ -13,7 +13,7 @@
 
 namespace sconce {
 
-/// Arrays may lie in a mapped file; whoever made the rows keeps them alive.
+/// Arrays may lie in a file's bytes; whoever made the rows keeps them alive.
 struct WaveletRows {
   static constexpr std::size_t kBlock = 16;
 
