@@ -87,7 +87,7 @@ TEST_F(Relight, SuperpositionOfGroups) {
     const test::Outcome same =
         run({"diff", file(group + ".exr"), file(baked), "--metric", "rmse", "--fail-above", "1.5%"});
     EXPECT_EQ(same.code, 0) << same.out;
-    EXPECT_NEAR(mean(group + ".exr") / mean(baked), 1, 0.004);
+    EXPECT_NEAR(mean(group + ".exr") / mean(baked), 1, 0.01);
   }
 }
 

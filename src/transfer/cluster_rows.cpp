@@ -61,11 +61,8 @@ Matrix principal(const Matrix& answers) {
   return out;
 }
 
-/// The same, of which the first column holds all of the rows' sums.
-Matrix principal_with_sums(Matrix answers, std::span<const std::vector<SparseEntry>> rows) {
-  Eigen::VectorXf sums = Eigen::VectorXf::Zero(answers.rows());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const SparseEntry& e : rows[i]) sums(static_cast<Eigen::Index>(i)) += e.value;
+/// The same, of which the first column holds all of the sums.
+Matrix principal_with_sums(Matrix answers, Eigen::VectorXf sums) {
   if (!(sums.norm() > 0)) return principal(answers);
   sums.normalize();
   answers -= sums * (sums.transpose() * answers).eval();
@@ -73,6 +70,22 @@ Matrix principal_with_sums(Matrix answers, std::span<const std::vector<SparseEnt
   Matrix out(rest.rows(), rest.cols());
   out << sums, rest.leftCols(rest.cols() - 1);
   return out;
+}
+
+Eigen::VectorXf sums_of(std::span<const std::vector<SparseEntry>> rows) {
+  Eigen::VectorXf sums = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const SparseEntry& e : rows[i]) sums(static_cast<Eigen::Index>(i)) += e.value;
+  return sums;
+}
+
+/// What rows' answers are divided by before least squares look at them.
+Eigen::VectorXf row_scales(const Matrix& answers, float evenness) {
+  constexpr float kDarkest = 1e-3f;  // of the brightest row
+  const Eigen::VectorXf norms = answers.rowwise().norm();
+  const float least = kDarkest * norms.maxCoeff();
+  if (!(least > 0)) return Eigen::VectorXf::Ones(answers.rows());
+  return norms.cwiseMax(least).array().pow(evenness);
 }
 
 }  // namespace
@@ -88,7 +101,12 @@ ClusterRowsBuilder::ClusterRowsBuilder(uint32_t rows, const TrainingLight& light
 
 void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::vector<SparseEntry>> rows) {
   const Matrix seen = answers(rows, light_);
-  const Matrix weights = params_.keep_sums ? principal_with_sums(seen, rows) : principal(seen);
+  const Eigen::VectorXf scales = row_scales(seen, params_.evenness), shares = scales.cwiseInverse();
+  const Matrix even = shares.asDiagonal() * seen;
+  const Matrix range =
+      params_.keep_sums ? principal_with_sums(even, shares.cwiseProduct(sums_of(rows))) : principal(even);
+  // Rows are weights x basis, and the basis is from_rows' transpose x rows.
+  const Matrix weights = scales.asDiagonal() * range, from_rows = shares.asDiagonal() * range;
   const std::size_t first = cluster * params_.cluster;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = weights.row(static_cast<Eigen::Index>(i));
@@ -100,10 +118,10 @@ void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::v
           static_cast<int16_t>(std::lround(row(static_cast<Eigen::Index>(j)) / scale));
   }
 
-  // The basis: weights' transpose times the rows, as sixteen squares at once.
+  // The basis, as sixteen squares at once.
   std::vector<Sixteen> basis(light_.columns(), Sixteen{});
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const float* w = weights.data() + i * kRank;
+    const float* w = from_rows.data() + i * kRank;
     for (const SparseEntry& e : rows[i])
       for (std::size_t j = 0; j < kRank; ++j) basis[e.index][j] += e.value * w[j];
   }
@@ -122,7 +140,7 @@ void ClusterRowsBuilder::set_cluster(std::size_t cluster, std::span<const std::v
 
   // What the coefficients that are left out would have answered goes to the coarse ones, as far as these
   // tell.
-  Matrix left = weights.transpose() * seen;
+  Matrix left = from_rows.transpose() * seen;
   const auto take = [&](uint32_t k) {
     const float* values = light_.at_coefficient(k).data();
     for (std::size_t j = 0; j < kRank; ++j) {

@@ -46,6 +46,9 @@ class ClusterRowsBuilder {
     uint32_t cluster = 512;
     std::size_t coefficients = 1024;  ///< of a basis
     bool keep_sums = false;  ///< of rows, exactly: even light stays so whatever the training lights are
+    /// How much alike rows count, whatever light they see: their errors are weighed by 1 / (its
+    /// norm)^evenness. At 0 the basis is spent on the brightest rows, and dim ones lose light.
+    float evenness = 0.7f;
   };
   /// @param light  must outlive it
   ClusterRowsBuilder(uint32_t rows, const TrainingLight& light, const Params& params);
