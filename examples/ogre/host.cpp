@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small OGRE program with materials and lights of its own, that knows nothing of bounces; then the same
 // with them. Run it with OUT, a prefix of files: pictures without and with, before and after its lamp
-// changed. It needs a display.
+// changed. With SHADERS, a folder, its generated shaders are kept there. It needs a display.
 #include <OgreShaderGenerator.h>
 #include <OgreShaderRenderState.h>
 
@@ -52,7 +52,8 @@ class GeneratedTechniques : public Ogre::MaterialManager::Listener {
 
 class Program {
  public:
-  Program(const std::string& file, bool shiny)
+  /// @param shaders  a folder for what the shader generator writes, or ""
+  Program(const std::string& file, bool shiny, const std::string& shaders)
       : file_(file), silent_(log_.createLog("", true, false, true)), root_("", "", "") {
     root_.loadPlugin(OGRE_PLUGINS "/RenderSystem_GL3Plus");
     root_.setRenderSystem(root_.getAvailableRenderers().front());
@@ -63,6 +64,7 @@ class Program {
     resources.addResourceLocation(OGRE_SHADERS "/../ShadowVolume", "FileSystem", Ogre::RGN_INTERNAL);
     shader::ShaderGenerator::initialize();
     auto& generator = shader::ShaderGenerator::getSingleton();
+    generator.setShaderCachePath(shaders);
     resources.initialiseAllResourceGroups();
     scene_ = root_.createSceneManager();
     generator.addSceneManager(scene_);
@@ -164,11 +166,11 @@ class Program {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    fmt::print(stderr, "ogre_radiosity OUT [--shiny]\n");
+    fmt::print(stderr, "ogre_radiosity OUT [--shiny [SHADERS]]\n");
     return 2;
   }
   try {
-    Program(argv[1], argc > 2 && std::string(argv[2]) == "--shiny").run();
+    Program(argv[1], argc > 2 && std::string(argv[2]) == "--shiny", argc > 3 ? argv[3] : "").run();
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());
     return 1;
