@@ -235,6 +235,30 @@ void OgreRadiosity::set_target(unsigned width, unsigned height) {
 }
 
 Drawing OgreRadiosity::draw(const DrawRequest& request) {
+  std::vector<std::pair<Ogre::MovableObject*, bool>> lights;
+  for (const auto& [name, light] : scene_.getMovableObjects("Light"))
+    lights.emplace_back(light, light->getVisible());
+  const Ogre::ColourValue ambient = scene_.getAmbientLight();
+  const auto restore = [&] {
+    scene_.setAmbientLight(ambient);
+    for (const auto& [light, visible] : lights) light->setVisible(visible);
+    for (Part& part : parts_) part.entity->setMaterial(part.paint->first);
+  };
+  try {
+    scene_.setAmbientLight(Ogre::ColourValue::Black);
+    if (request.lights != DrawRequest::Lights::all)
+      for (const auto& [light, visible] : lights) light->setVisible(false);
+    probe_->setVisible(request.lights == DrawRequest::Lights::probe);
+    Drawing drawing = draw_faces(request);
+    restore();
+    return drawing;
+  } catch (...) {
+    restore();
+    throw;
+  }
+}
+
+Drawing OgreRadiosity::draw_faces(const DrawRequest& request) {
   const PartCorners places = map_.places(request);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     Part& part = parts_[p];
@@ -242,15 +266,7 @@ Drawing OgreRadiosity::draw(const DrawRequest& request) {
     part.buffer->writeData(0, part.corners.size() * sizeof part.corners[0], part.corners.data(), true);
     part.entity->setMaterial(request.white_card ? white_ : part.paint->second.bare);
   }
-  std::vector<std::pair<Ogre::MovableObject*, bool>> lights;
-  for (const auto& [name, light] : scene_.getMovableObjects("Light")) {
-    lights.emplace_back(light, light->getVisible());
-    if (request.lights != DrawRequest::Lights::all) light->setVisible(false);
-  }
-  const Ogre::ColourValue ambient = scene_.getAmbientLight();
-  scene_.setAmbientLight(Ogre::ColourValue::Black);
   const Vec3& to = request.probe.to_light;
-  probe_->setVisible(request.lights == DrawRequest::Lights::probe);
   probe_->setDiffuseColour(Ogre::ColourValue::White * request.probe.intensity);
   probe_->setSpecularColour(Ogre::ColourValue::White * request.probe.intensity);
   probe_->getParentSceneNode()->setDirection(-to.x, -to.y, -to.z, Ogre::Node::TS_WORLD);
@@ -263,10 +279,5 @@ Drawing OgreRadiosity::draw(const DrawRequest& request) {
   Drawing drawing{request.width, request.height, std::vector<float>(3 * request.pixels()), {}};
   target_->getBuffer()->blitToMemory(
       {target_->getWidth(), target_->getHeight(), 1, Ogre::PF_FLOAT32_RGB, drawing.values.data()});
-
-  scene_.setAmbientLight(ambient);
-  for (const auto& [light, visible] : lights) light->setVisible(visible);
-  probe_->setVisible(false);
-  for (Part& part : parts_) part.entity->setMaterial(part.paint->first);
   return drawing;
 }

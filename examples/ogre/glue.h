@@ -41,6 +41,7 @@ class OgreRadiosity {
   sconce::Scene collect();
   void take(Ogre::Entity& entity, sconce::Scene& out);
   sconce::Drawing draw(const sconce::DrawRequest& request);
+  sconce::Drawing draw_faces(const sconce::DrawRequest& request);
   void set_target(unsigned width, unsigned height);
 
   Ogre::SceneManager& scene_;
