@@ -69,7 +69,7 @@ class GlHost {
   std::string vertex = kVertex, fragment = kFragment;
   Vec3 lamp{0.5f, 0.5f, 0.5f};
   float strength = 1;
-  bool tiled = false;
+  bool tiled = false, idle = false;
   std::function<void()> spoil = [] {};  ///< done in every drawing
 
   Drawing draw(const DrawRequest& request) const {
@@ -110,7 +110,7 @@ class GlHost {
     program.set("strength", request.lights == DrawRequest::Lights::all ? Vec3(strength) : Vec3(0));
     program.set("probe_strength",
                 request.lights == DrawRequest::Lights::probe ? request.probe.intensity : 0.0f);
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * request.triangles.size()));
+    if (!idle) glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * request.triangles.size()));
     Drawing drawing{request.width, request.height, std::vector<float>(3 * request.pixels()), {}};
     target.read(GL_RGB, GL_FLOAT, drawing.values.data());
     spoil();
@@ -257,6 +257,8 @@ TEST_F(GlRenderer, GoesOnWithoutBounces) {
   fault(
       of + "shader 'walls': line ", [&] { host_.fragment += "nonsense"; },
       [&] { host_.fragment = kFragment; });
+  fault(
+      of + "shows none of the faces", [&] { host_.idle = true; }, [&] { host_.idle = false; });
   fault(
       of + "out of memory", [&] { host_.spoil = [] { throw std::runtime_error("out of memory"); }; }, well);
   fault(

@@ -11,6 +11,7 @@ namespace sconce {
 
 namespace {
 
+constexpr float kWhite = 0.999f;    // what counts as a white background that is still seen
 constexpr float kRounding = 1e-4f;  // that far below zero is rounding, not a fault
 
 std::string of_renderer(const std::string& what) {
@@ -38,8 +39,22 @@ float half_step(TargetFormat format) {
   return format == TargetFormat::linear ? 0 : (1 - decode_code(format, 254)) / 2;
 }
 
-Captured capture(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
-                 const std::string& what) {
+namespace {
+
+/// Whether the faces' pixels all are what the target was cleared to, black or white.
+bool shows_background(const TextureSpace& space, const Captured& captured, float background) {
+  bool any = false;
+  for (std::size_t i = 0; i < space.pixels(); ++i) {
+    if (space.covered[i] == 0) continue;
+    any = true;
+    const Rgb& light = captured.light[i];
+    if (background > 0 ? std::min({light.r, light.g, light.b}) < kWhite : light.max() > 0) return false;
+  }
+  return any;
+}
+
+Captured capture_once(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
+                      const std::string& what) {
   if (!host.draw) throw Error(of_renderer(what), "there is no renderer");
   request.width = space.width, request.height = space.height;
   request.triangles = space.triangles, request.corners = space.corners;
@@ -85,10 +100,26 @@ Captured capture(const HostRenderer& host, const TextureSpace& space, DrawReques
   return out;
 }
 
+}  // namespace
+
 void Captured::append(const Captured& other) {
   light.insert(light.end(), other.light.begin(), other.light.end());
   clipped.insert(clipped.end(), other.clipped.begin(), other.clipped.end());
   cost += other.cost;
+}
+
+Captured capture(const HostRenderer& host, const TextureSpace& space, const DrawRequest& request,
+                 const std::string& what) {
+  Captured captured = capture_once(host, space, request, what);
+  if (request.lights != DrawRequest::Lights::all || !shows_background(space, captured, 0)) return captured;
+  // It is dark there, or nothing was drawn.
+  DrawRequest again = request;
+  again.background = 1;
+  const Captured on_white = capture_once(host, space, again, what);
+  if (shows_background(space, on_white, 1))
+    throw Error(of_renderer(what), "shows none of the faces: white stays white");
+  captured.cost += on_white.cost;
+  return captured;
 }
 
 Rgb face_mean(const TextureSpace& space, std::size_t face, const Captured& captured, bool& clipped) {

@@ -31,11 +31,13 @@ struct Captured {
   void append(const Captured& other);
 };
 
-/// Lets the renderer draw.
+/// Lets the renderer draw. Where all lights leave everything black, a second drawing on white tells whether
+/// it draws at all.
 /// @param request  its size, triangles and corners are set here, from `space`
 /// @param what     for messages: what is drawn
-/// @throws Error naming the renderer's fault: it threw, has the wrong size or format, drew what is no light
-Captured capture(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
+/// @throws Error naming the renderer's fault: it threw, has the wrong size or format, drew what is no light,
+/// or nothing
+Captured capture(const HostRenderer& host, const TextureSpace& space, const DrawRequest& request,
                  const std::string& what);
 
 /// Mean light of a face's pixels. @param clipped  set where a channel of any of them is

@@ -113,6 +113,30 @@ TEST(Capture, OverRangeLight) {
   }
 }
 
+// A dark scene is not a renderer that draws nothing.
+TEST(Capture, DarkOrNotDrawn) {
+  Scene scene;
+  add_quad(scene, "wall", add_material(scene, "white", Rgb(1)), Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  const World world = make_world(scene);
+  SyntheticHost host{world, {{{Rgb(0), Rgb(0), Rgb(0.5f)}}}};
+  const TextureSpace space = face_cells(std::vector<uint32_t>{0, 1}, std::vector<int>{4, 4});
+  DrawRequest request;
+  request.lights = DrawRequest::Lights::all;
+  const Captured dark = capture(host.renderer(), space, request, "direct light");
+  EXPECT_EQ(dark.light[0].max(), 0);
+  EXPECT_EQ(dark.cost.draws, 2u);
+  const HostRenderer idle{[](const DrawRequest& r) {
+    return Drawing{r.width, r.height, std::vector<float>(3 * r.pixels(), r.background), {}};
+  }};
+  try {
+    capture(idle, space, request, "direct light");
+    ADD_FAILURE() << "no error";
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(),
+                 "the renderer's drawing of direct light: shows none of the faces: white stays white");
+  }
+}
+
 // methods.md 1B: the two decodings differ by -31 % at code 32 and +0.9 % at 200.
 TEST(Capture, Codes) {
   const auto ratio = [](uint8_t code) {
