@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "app.h"
-#include "core/mapped_file.h"
 #include "faulty_room.h"
 #include "solve/state.h"
 
@@ -258,11 +257,9 @@ TEST_F(Faults, PackagesBeyondFourGigabytes) {
   text.replace(text.find(small), small.size(), hash_file(layout));
   write_file(manifest, text);
   EXPECT_NO_THROW(Package::open(folder / "x.sconce", true));
-  EXPECT_EQ(MappedFile(layout).bytes().size(), (uint64_t{4} << 30) + 4096);
   const int fd = ::open(layout.c_str(), O_WRONLY);
   ASSERT_EQ(::pwrite(fd, "x", 1, (off_t{4} << 30) + 99), 1);
   ::close(fd);
-  EXPECT_EQ(MappedFile(layout).bytes()[(uint64_t{4} << 30) + 99], 'x');
   try {
     Package::open(folder / "x.sconce", true);
     FAIL() << "the change beyond 4 GB went unseen";

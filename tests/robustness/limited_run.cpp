@@ -7,7 +7,6 @@
 #include <chrono>
 
 #include "core/files.h"
-#include "core/mapped_file.h"
 #include "core/program.h"
 #include "core/scratch_folder.h"
 #include "core/text.h"
@@ -53,8 +52,7 @@ Run judge(int code, const std::string& said, const std::string& verb, const fs::
 }  // namespace
 
 Program program_at(const std::string& path) {
-  const MappedFile file(path);
-  return {path, file.bytes().find("__asan_init") != std::string_view::npos};
+  return {path, read_file(path).find("__asan_init") != std::string::npos};
 }
 
 Run run_limited(const Program& program, std::vector<std::string> words, const fs::path& file) {
