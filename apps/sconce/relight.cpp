@@ -215,7 +215,8 @@ int run_relight(int argc, const char* const* argv) {
     };
     const MovedLamps lamps = lamps_at(wanted.lights, groups, moved);
     RelightJob job{package, view, op, lamps, wanted.shaders, nullptr, static_cast<float>(cull)};
-    std::vector<Image> pages = mix_pages(package, lightmap);
+    std::vector<Image> pages = mix_pages(package, lightmap), components;
+    if (view.sees_normal_maps()) components = mix_components(package, lightmap);
     if (const std::vector<MovedGroup> parts = in_part(groups); !parts.empty()) {
       job.bounces = std::make_shared<FoldedBounces>(op);
       take_share(package_atlas(package, view), op,
@@ -226,7 +227,7 @@ int run_relight(int argc, const char* const* argv) {
     relit.device = stage->device();
     if (cull > 0) relit.culled = stage->culled();
     if (texels) stage->add_to(pages);
-    relit.linear = stage->draw(relit.camera, relit.mix, pages, relit.params, progress);
+    relit.linear = stage->draw(relit.camera, relit.mix, pages, components, relit.params, progress);
     if (exposed && texels && wanted.shaders.empty()) {
       add_to_pages(package, view, op, direct_at_middles(op, lamps), pages);
       relit.metering = meter(package, view.scene(), relit.mix, pages);

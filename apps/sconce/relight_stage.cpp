@@ -34,8 +34,9 @@ class CpuRelightStage : public RelightStage {
   }
   void add_to(std::vector<Image>& pages) const override { relighter_.add_to(pages); }
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-             const PictureParams& params, const Progress& progress) override {
-    return view_.render(camera, mix, pages, params, progress, nullptr, relighter_.added());
+             const std::vector<Image>& components, const PictureParams& params,
+             const Progress& progress) override {
+    return view_.render(camera, mix, pages, params, progress, nullptr, relighter_.added(), components);
   }
 
  private:
@@ -84,7 +85,10 @@ class GlRelightStage : public RelightStage {
     add_to_pages(job_.package, job_.view, job_.op, transfer_.read(), pages);
   }
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-             const PictureParams& params, const Progress& progress) override {
+             const std::vector<Image>& components, const PictureParams& params,
+             const Progress& progress) override {
+    if (!components.empty())
+      progress.warn("OpenGL moves lamps over surfaces without normal maps: --device cpu sees them");
     if (params.reflections > 0 && job_.view.scene().has_mirrors()) progress.warn(kNoReflections);
     if (job_.view.scene().has_panes()) progress.warn(kNoPanes);
     view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
@@ -135,8 +139,8 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
   for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
   const Scene& scene = job.view.scene();
-  const bool traced =
-      device.name == "auto" && ((device.reflections && scene.has_mirrors()) || scene.has_panes());
+  const bool traced = device.name == "auto" && ((device.reflections && scene.has_mirrors()) ||
+                                                scene.has_panes() || job.view.sees_normal_maps());
   const bool cpu = traced || job.cull > 0;
   if (auto context = open_context(!job.shaders.empty() ? "gl" : cpu ? "cpu" : device.name)) {
     try {

@@ -43,9 +43,11 @@ class RelightStage {
   /// Relighter::add_to
   virtual void add_to(std::vector<Image>& pages) const = 0;
   /// The picture, linear, cd/m2.
-  /// @param pages  of the whole lightmap
+  /// @param pages       of the whole lightmap
+  /// @param components  of its layers, for normal maps; or none
   virtual Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
-                     const PictureParams& params, const Progress& progress) = 0;
+                     const std::vector<Image>& components, const PictureParams& params,
+                     const Progress& progress) = 0;
 };
 
 /// Lights the cloud and sends its light to all receivers. `auto` is OpenGL where there is a graphics device

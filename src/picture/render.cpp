@@ -49,14 +49,21 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
                     const Sight& sight, int met) const {
   const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
   SurfacePoint at = surface_point(world(), hit);
+  const auto mapped = [&] {
+    const Vec3 offset = normal_offset(scene(), world(), hit.triangle, hit.barycentric);
+    return hit.back ? -offset : offset;
+  };
   Rgb light = illuminance(hit, sight.mix);
-  if (lit && sight.added) light += sight.added(at);
+  if (lit && sight.added) {
+    SurfacePoint seen = at;
+    if (!sight.mix.components.empty()) seen.shading_normal += mapped();
+    light += sight.added(seen);
+  }
   const Rgb diffuse = surface.receiver_albedo() * light * kInvPi + through;
   if (!lit || sight.reflections == 0 || !mirrors(surface)) return diffuse;
   if (met == sight.reflections) return surface.base_color * light * kInvPi + through;
 
-  const Vec3 mapped = normal_offset(scene(), world(), hit.triangle, hit.barycentric);
-  at.shading_normal += hit.back ? -mapped : mapped;
+  at.shading_normal += mapped();
   const uint32_t rays = met == 0 && surface.roughness > kSharp ? kLobeRays : 1;
   Rgb sum;
   for (uint32_t i = 0; i < rays; ++i) {

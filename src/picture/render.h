@@ -14,8 +14,8 @@
 
 namespace sconce {
 
-/// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux.
-/// Thread-safe.
+/// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux;
+/// its shading normal is the normal map's where components are given. Thread-safe.
 using AddedLight = std::function<Rgb(const SurfacePoint& at, int x, int y, uint32_t sample)>;
 
 /// A package ready to be looked at: geometry, rays, lightmap coordinates. Thread-safe once built.

@@ -216,6 +216,24 @@ TEST_F(Picture, NormalMapsTurnDirectionalLight) {
   expect_all(look(c, true), Rgb(2, 2, 1) * (0.5f * kInvPi * 100));
 }
 
+/// Light beside the lightmap's falls on the same normals.
+TEST_F(Picture, NormalMapsTurnAddedLight) {
+  const Package package = write(bumpy_wall());
+  const View view(package);
+  const MixSpec mix{{Rgb(0)}};
+  PictureParams params;
+  params.width = params.height = 4;
+  const Vec3 n = glm::normalize(2.0f * Vec3(204, 128, 230) / 255.0f - 1.0f), sun(0.8f, 0, 0.6f);
+  const auto look = [&](const std::vector<Image>& components) {
+    return view.render(
+        view.camera(""), mix, mix_pages(package, mix), params, {}, nullptr,
+        [&](const SurfacePoint& at, int, int, uint32_t) { return Rgb(glm::dot(at.shading_normal, sun)); },
+        components);
+  };
+  expect_all(look(mix_components(package, mix)), Rgb(0.5f * kInvPi * glm::dot(n, sun)));
+  expect_all(look({}), Rgb(0.5f * kInvPi * sun.z));
+}
+
 /// Seen from behind, a double-sided wall's mapped normal is turned round with its own.
 TEST_F(Picture, NormalMapsOnBacks) {
   PackageContents c = bumpy_wall();
