@@ -37,6 +37,7 @@ export class ThreeRadiosity {
   #pending = new Map(); // those not yet rewritten, with their names
   #compiled = 0; // how often the program's shaders had to be compiled again
   #inFaces = { value: 0 };
+  #last = Promise.resolve(); // conversation
   #white = new THREE.MeshLambertMaterial({ color: 'white', name: 'white card' });
   #probe = new THREE.DirectionalLight();
   #eye = new THREE.PerspectiveCamera();
@@ -74,11 +75,20 @@ export class ThreeRadiosity {
     }
     this.ambient = new THREE.DataTexture(new Float32Array(4 * map.width * map.height), map.width, map.height, THREE.RGBAFormat, THREE.FloatType);
     Object.assign(this.ambient, { channel: 1, magFilter: THREE.LinearFilter, minFilter: THREE.LinearFilter, needsUpdate: true });
-    const { materials, findings } = await this.#converse({ kind: 'begin' });
-    const names = [...this.#materials.keys()].map((m) => m.name);
-    this.found = { materials: materials.map((m, i) => ({ name: names[i], ...m })), findings };
+    await this.#find('begin');
     for (const material of this.#materials.keys())
       if ('lightMap' in material) Object.assign(material, { lightMap: this.ambient, lightMapIntensity: Math.PI, needsUpdate: true });
+  }
+
+  /** Looks at the materials again, after the program changed them. @throws Error  then the old ones stay */
+  detect() {
+    return this.#find('detect');
+  }
+
+  async #find(kind) {
+    const { materials, findings } = await this.#converse({ kind });
+    const names = [...this.#materials.keys()].map((m) => m.name);
+    this.found = { materials: materials.map((m, i) => ({ name: names[i], ...m })), findings };
   }
 
   /** Reads the direct light and brings the ambient map up to date.
@@ -95,8 +105,14 @@ export class ThreeRadiosity {
     return frame;
   }
 
-  /** Draws what sconce asks for until it says what came of it. */
-  async #converse(message) {
+  /** Draws what sconce asks for until it says what came of it; one conversation after the other. */
+  #converse(message) {
+    const all = this.#last.then(() => this.#talk(message));
+    this.#last = all.catch(() => {});
+    return all;
+  }
+
+  async #talk(message) {
     let reply = await this.#post('turn', pack(message));
     while (reply.kind === 'draw') {
       let answer;

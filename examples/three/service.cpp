@@ -120,6 +120,22 @@ class GiService::Session {
     TransferParams params;
     params.gather = 4096, params.rays = 256, params.lights = 128;
     map_.start({[this](const DrawRequest& request) { return draw(request); }}, params, {{}, {}, stop});
+    std::string wanted = turns_.ask_page(found().text());
+    for (;;)
+      wanted = turns_.ask_page(
+          (Message::read(wanted).head.at("kind") == "detect" ? found_again(stop) : frame()).text());
+  }
+
+  Message found_again(std::stop_token stop) {
+    try {
+      map_.detect({{}, {}, std::move(stop)});
+    } catch (const Error& e) {
+      return {{{"kind", "failed"}, {"message", e.what()}}, {}};
+    }
+    return found();
+  }
+
+  Message found() const {
     const Detection& found = map_.detection();
     if (listener_.found) listener_.found(found);
     Json materials = Json::array();
@@ -128,19 +144,19 @@ class GiService::Session {
                            {"emission", json_of(m.response.emission)},
                            {"transmission", json_of(m.response.transmission)},
                            {"residual", m.residual}});
-    turns_.ask_page(
-        Message{{{"kind", "found"}, {"materials", materials}, {"findings", found.findings}}, {}}.text());
-    for (;;) {
-      const FrameReport report = map_.update();
-      if (listener_.frame) listener_.frame(report);
-      Message frame{{{"kind", "frame"},
+    return {{{"kind", "found"}, {"materials", materials}, {"findings", found.findings}}, {}};
+  }
+
+  Message frame() {
+    const FrameReport report = map_.update();
+    if (listener_.frame) listener_.frame(report);
+    Message message{{{"kind", "frame"},
                      {"fault", report.fault},
                      {"drawn", report.capture.milliseconds},
                      {"solved", report.solve_milliseconds}},
                     {}};
-      for (const Rgb& c : map_.texels()) frame.floats.insert(frame.floats.end(), {c.r, c.g, c.b, 1});
-      turns_.ask_page(frame.text());
-    }
+    for (const Rgb& c : map_.texels()) message.floats.insert(message.floats.end(), {c.r, c.g, c.b, 1});
+    return message;
   }
 
   Drawing draw(const DrawRequest& request) {

@@ -58,9 +58,20 @@ PartCorners AmbientMap::places(const DrawRequest& request) const {
 void AmbientMap::start(const HostRenderer& host, TransferParams params, const Progress& progress,
                        const DetectParams& look) {
   params.keep_sums = true;
+  host_ = host, look_ = look;
   detection_ = detect_materials(scene_, world_, host, look, progress);
   radiosity_ = std::make_unique<RealtimeRadiosity>(traced_, texel_receivers(traced_, atlas_), space_, host,
                                                    detection_, params, progress);
+  spread_reflectance();
+}
+
+void AmbientMap::detect(const Progress& progress) {
+  detection_ = detect_materials(scene_, world_, host_, look_, progress);
+  radiosity_->set_materials(detection_);
+  spread_reflectance();
+}
+
+void AmbientMap::spread_reflectance() {
   reflectance_.assign(space_.pixels(), Rgb());
   std::vector<std::size_t> known;
   for (std::size_t f = 0; f < space_.triangles.size(); ++f) {

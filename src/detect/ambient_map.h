@@ -39,6 +39,10 @@ class AmbientMap {
   void start(const HostRenderer& host, TransferParams params, const Progress& progress = {},
              const DetectParams& look = {});
 
+  /// Looks at the materials again, after the renderer changed them: without rays. @pre started
+  /// @throws Error, Cancelled: then the old ones stay
+  void detect(const Progress& progress = {});
+
   /// As RealtimeRadiosity::update(). @pre started
   FrameReport update(const FrameBudget& budget = {}) { return radiosity_->update(budget); }
   /// Height x width, to be multiplied by the surface's own reflectance and added.
@@ -52,6 +56,7 @@ class AmbientMap {
  private:
   PartCorners corners(std::span<const uint32_t> triangles, std::span<const std::array<Vec2, 3>> at,
                       Vec2 whole, Vec2 others) const;
+  void spread_reflectance();
 
   Scene scene_;
   World world_;
@@ -60,6 +65,8 @@ class AmbientMap {
   Atlas atlas_;
   TextureSpace space_;
   Detection detection_;
+  HostRenderer host_;
+  DetectParams look_;
   std::unique_ptr<RealtimeRadiosity> radiosity_;
   std::vector<Rgb> reflectance_;  ///< per texel
 };

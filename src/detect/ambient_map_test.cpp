@@ -33,6 +33,14 @@ TEST(AmbientMap, Furnace) {
       ++around;
     }
   EXPECT_GT(around, 0u) << "filtering reads texels around faces";
+  // Other paint: I = emission / (1 - rho), of which rho is shown.
+  host.materials[0].response.reflectance = Rgb(0.75f);
+  map.detect();
+  ASSERT_TRUE(map.update());
+  const auto lit = static_cast<std::size_t>(std::find(space.covered.begin(), space.covered.end(), 1) -
+                                            space.covered.begin());
+  EXPECT_NEAR(map.texels()[lit].g, 4, 0.12f);
+  EXPECT_NEAR(map.reflected()[lit].g, 3, 0.1f);
   // A corner has a place in the texture: that of its face's texels.
   const PartCorners coordinates = map.coordinates();
   ASSERT_EQ(coordinates.size(), 1u);

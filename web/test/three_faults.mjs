@@ -57,6 +57,19 @@ const kept = await page.evaluate(async () => {
 });
 assert.equal(kept[1], kept[0]);
 
+// Other paint, and the materials are looked at again: between two frames, and nothing is made anew.
+const [colourful, repainted] = await page.evaluate(async () => {
+  const { radiosity, materials } = window;
+  const reflectances = () => radiosity.found.materials[1].reflectance;
+  const before = reflectances();
+  materials[1].color.setRGB(0.25, 0.5, 0.125);
+  await radiosity.detect();
+  return [before, reflectances()];
+});
+assert.ok(colourful.every((v, i) => Math.abs(v - [0.75, 0.74, 0.7][i]) < 1e-3), String(colourful));
+assert.ok(repainted.every((v, i) => Math.abs(v - [0.25, 0.5, 0.125][i]) < 1e-3), String(repainted));
+await page.evaluate(() => window.materials[1].color.setRGB(0.75, 0.74, 0.7));
+
 await fault(
   "the renderer's drawing of direct light: the WebGL context is lost",
   () => (window.lose = window.renderer.getContext().getExtension('WEBGL_lose_context')).loseContext(),
