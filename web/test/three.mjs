@@ -7,6 +7,7 @@ import { openBrowser, openPage } from './browser.mjs';
 const [program, ...args] = process.argv.slice(2);
 const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'inherit'] });
 process.on('exit', () => child.kill());
+process.on('SIGTERM', () => process.exit(1)); // of a time limit: with the child
 const ended = new Promise((exit) => child.on('exit', exit));
 let said = '';
 const url = await new Promise((found, missing) => {

@@ -9,6 +9,7 @@ import { openBrowser, openPage } from './browser.mjs';
 const [program, picture] = process.argv.slice(2);
 const child = spawn(program, { stdio: ['ignore', 'pipe', 'inherit'] });
 process.on('exit', () => child.kill());
+process.on('SIGTERM', () => process.exit(1)); // of a time limit: with the child
 const url = await new Promise((found) => child.stdout.once('data', (text) => found(String(text).trim())));
 const browser = await openBrowser();
 const { page, errors } = await openPage(browser, url, { width: 640, height: 480 });
