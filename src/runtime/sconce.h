@@ -138,7 +138,7 @@ typedef struct sconce_point {
   float albedo[3];   /* diffuse reflectance */
 } sconce_point;
 
-/* Maps the file and checks it. NULL on failure. */
+/* Reads the file and checks it. NULL on failure. */
 sconce_transfer* sconce_transfer_open(const char* path, char* message, size_t message_size);
 void sconce_transfer_close(sconce_transfer* transfer);
 
