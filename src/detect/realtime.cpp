@@ -56,6 +56,8 @@ RealtimeRadiosity::RealtimeRadiosity(const TracedScene& traced, const RelightRec
       detection_(detection) {
   find_backs(detection);
   params = with_transmission(std::move(params), detection);
+  // Few receivers of a scene are unlike each other: then fewer of them share a basis.
+  params.cluster = std::min(params.cluster, 16 * static_cast<int>((receivers.source.count + 4095) / 4096));
   const Scene found = found_scene(traced, detection);
   const TracedScene seen{found, world_, tracer_};
   Operator op;

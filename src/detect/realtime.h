@@ -41,6 +41,7 @@ class RealtimeRadiosity {
   /// @param traced     must outlive it, as what the receivers refer to
   /// @param detection  its transmissions are taken by material, and stay; a share without colour
   /// @param direct   where faces are drawn to see their light; the faces of all that sends light on
+  /// @param params   of `cluster` no more than a 256th of the receivers
   /// @throws UsageError, Cancelled, as make_operator()
   RealtimeRadiosity(const TracedScene& traced, const RelightReceivers& receivers, TextureSpace direct,
                     HostRenderer host, const Detection& detection, TransferParams params = {},
