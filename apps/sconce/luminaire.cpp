@@ -61,7 +61,13 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
     out.rays = read_rays(
         file, [&](std::span<const SourceRay> rays) { bins.add(rays); }, progress);
   } catch (const NotMyFormat&) {
-    out.photometry = read_photometry(file);
+    try {
+      out.photometry = read_photometry(file);
+    } catch (const NotMyFormat&) {
+      const std::string type = lower(std::filesystem::path(file).extension().string());
+      if (type == ".ies" || type == ".ldt") throw;
+      throw Error(file, "is no lamp that can be read", kAnyLamp);
+    }
     for (const std::string& note : out.photometry.notes) progress.warn(file + ": " + note);
     return out;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <pugixml.hpp>
 #include <set>
@@ -26,7 +27,12 @@ class Container {
     int code = 0;
     zip_.reset(::zip_open(path.c_str(), ZIP_RDONLY, &code));
     if (zip_) return;
-    if (code == ZIP_ER_NOZIP) throw NotMyFormat(where_, "is no GLDF container");
+    if (code == ZIP_ER_NOZIP) {
+      std::string begin(2, '\0');
+      std::ifstream(path, std::ios::binary).read(begin.data(), 2);
+      if (begin == "PK") throw Error(where_, "is a zip that is cut short or damaged");
+      throw NotMyFormat(where_, "is no GLDF container");
+    }
     zip_error_t error;
     ::zip_error_init_with_code(&error, code);
     const std::string what = ::zip_error_strerror(&error);

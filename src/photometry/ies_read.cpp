@@ -159,6 +159,8 @@ class Reader {
       note(numbers.line(), "the ballast-lamp factor is not 1, which LM-63-2002 asks for");
 
     out_.absolute = lumens < 0;
+    if (lumens < 0 && lumens != -1)
+      note(sizes, fmt::format("{:g} lumens per lamp count as -1, absolute photometry", lumens));
     if (lumens == 0) note(sizes, "0 lumens per lamp; the candela values are taken as they stand");
     LampSet lamp;
     lamp.count = lamps;

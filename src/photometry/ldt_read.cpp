@@ -64,11 +64,17 @@ class Reader {
     const auto code = [&](std::size_t line) {
       return line < lines_.size() ? parse_number(trim(lines_[line])).value_or(-1) : -1;
     };
-    const double type = code(1), symmetry = code(2);
+    const auto need = [&](std::size_t line, bool good, const char* what, const char* allowed) {
+      if (!good) throw NotMyFormat(fmt::format("{}:{}", where_, line + 1), what, allowed);
+    };
+    const auto whole = [&](std::size_t line, double most) {
+      return code(line) >= 0 && code(line) <= most && code(line) == std::floor(code(line));
+    };
+    const double symmetry = code(2);
     // Makers write type 0 for point symmetric lamps.
-    if (!(type >= 0 && type <= 3 && symmetry >= 0 && symmetry <= 4 && type == std::floor(type) &&
-          symmetry == std::floor(symmetry) && code(3) > 0))
-      throw NotMyFormat(where_, "is no EULUMDAT file: lines 2 and 3 are no type 1 to 3 and symmetry 0 to 4");
+    need(1, whole(1, 3), "is no type of an EULUMDAT file", "1 to 3");
+    need(2, whole(2, 4), "is no symmetry of an EULUMDAT file, Isym", "0 to 4");
+    need(3, code(3) > 0, "is no number of C planes of an EULUMDAT file, Mc", "a whole number from 1 to 3600");
     symmetry_ = static_cast<int>(symmetry);
   }
 

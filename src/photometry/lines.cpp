@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photometry/lines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,7 +70,7 @@ double Numbers::next(const std::string& what) {
 int Numbers::integer(const std::string& what, int least, int most) {
   const double v = next(what);
   if (v != static_cast<double>(static_cast<int>(v)) || v < least || v > most)
-    fail(what + " is " + std::to_string(v),
+    fail(fmt::format("{} is {:g}", what, v),
          "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(v);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "photometry/formats.h"
 
 namespace sconce {
@@ -28,6 +29,8 @@ Photometry parse_photometry(std::string_view text, const std::string& where,
   try {
     return parse_ldt(text, where);
   } catch (const NotMyFormat&) {
+    // Of a file that says what it is, what is wrong with that.
+    if (lower(std::filesystem::path(where).extension().string()) == ".ldt") throw;
     throw NotMyFormat(where, "is no photometric file that can be read", "IES LM-63, EULUMDAT, TM-33, GLDF");
   }
 }
