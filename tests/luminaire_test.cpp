@@ -174,6 +174,35 @@ TEST(LuminaireBake, FluxInAWhiteSphere) {
   EXPECT_NEAR(group.mean_lux, 5540 / (4 * kPiD * 9 * 0.5), 0.01 * group.mean_lux);
 }
 
+// The same for a light field whose dual has negative lobes, a third of all light: whoever samples or traces
+// it by size and keeps the sign has its flux, bounces included.
+TEST(LuminaireBake, LightFieldOfBothSignsInAWhiteSphere) {
+  const TemporaryFolder folder;
+  Scene scene;
+  add_sphere(scene, "shell", add_material(scene, "white", Rgb(0.5f)), Vec3(0), 3, 48, true);
+  folder.write("sphere.glb", write_glb(scene, "test"));
+  LightField field = test::colored_spots();
+  double absolute = 0;
+  for (std::size_t i = 0; i < field.color.size(); ++i) {
+    const std::size_t term = i / field.pixels() % field.terms();
+    if (term % 4 == 1) field.color[i] *= -1.3f;
+    absolute += std::abs(static_cast<double>(field.color[i]));
+  }
+  set_luminance(field);
+  double sum = 0;
+  for (const float v : field.color) sum += static_cast<double>(v);
+  ASSERT_LT(sum, 0.7 * absolute) << "signs cancel";
+  ASSERT_GT(sum, 0.1 * absolute);
+  write_light_field(folder / "lamp.exr", field);
+  folder.write("sphere.toml", "[[luminaire]]\nfile = \"lamp.exr\"\nat = [0, 0, 0]\n");
+  for (const char* solver : {"path", "radiosity", "photon"}) {
+    const Package package = baked(folder / "sphere.glb", folder / "sphere.sconce", 2, 64, -1, solver);
+    const GroupInfo& group = package.manifest().groups.at(0);
+    EXPECT_NEAR(group.lumens, flux(field), 1e-3 * flux(field)) << solver;
+    EXPECT_NEAR(group.mean_lux / (flux(field) / (4 * kPiD * 9 * 0.5)), 1, 0.02) << solver;
+  }
+}
+
 TEST(LuminaireVerb, InfoCheckConvert) {
   const auto data = test_data() / "photometry";
   SCONCE_NEEDS_DATA(data);
