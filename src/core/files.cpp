@@ -24,8 +24,9 @@ std::string read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path.string(), fs::exists(path, ec) ? "cannot be read" : "no such file");
   std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (in.bad()) throw Error(path.string(), "cannot be read");
+  bytes << in.rdbuf();  // ends early, and says nothing, where memory does
+  if (in.bad() || in.peek() != std::ifstream::traits_type::eof())
+    throw Error(path.string(), "cannot be read, or is larger than there is memory");
   return std::move(bytes).str();
 }
 

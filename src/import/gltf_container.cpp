@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/mapped_file.h"
 #include "core/text.h"
 
 namespace sconce {
@@ -15,13 +15,13 @@ constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-uint32_t word(const std::string& bytes, std::size_t at) {
+uint32_t word(std::string_view bytes, std::size_t at) {
   uint32_t value = 0;
   for (std::size_t i = 4; i-- > 0;) value = (value << 8) | static_cast<unsigned char>(bytes[at + i]);
   return value;
 }
 
-GltfContainer split_glb(const std::string& bytes, const std::string& where) {
+GltfContainer split_glb(std::string_view bytes, const std::string& where) {
   if (bytes.size() < kHeader + kChunkHeader) throw Error(where, "GLB ends within its header");
   const uint32_t version = word(bytes, 4), length = word(bytes, 8);
   if (version != 2) throw Error(where, "GLB version " + std::to_string(version) + " is not supported", "2");
@@ -56,10 +56,10 @@ GltfContainer split_glb(const std::string& bytes, const std::string& where) {
 }  // namespace
 
 GltfContainer open_gltf_container(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  if (std::string_view(bytes).starts_with("glTF")) return split_glb(bytes, path.string());
+  const MappedFile file(path);  // behind a GLB's end there may be gigabytes
+  std::string_view text = file.bytes();
+  if (text.starts_with("glTF")) return split_glb(text, path.string());
 
-  std::string_view text = bytes;
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::string extension = lower(path.extension().string());
   const std::size_t first = text.find_first_not_of(" \t\r\n");

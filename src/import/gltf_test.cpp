@@ -193,6 +193,26 @@ TEST(GltfFiles, ExternalBuffersMissingAndShort) {
   EXPECT_NE(error_of([&] { import_gltf(path); }).find("cut short"), std::string::npos);
 }
 
+// A GLB's lengths are of 32 bits: what it says is behind 4 GiB is not there, and what lies behind its end is
+// nobody's.
+TEST(GltfFiles, BeyondFourGigabytes) {
+  const TemporaryFolder folder;
+  std::string json = R"({"asset": {"version": "2.0"}})";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto glb = [&](uint32_t length, uint32_t chunk) {
+    std::string bytes = "glTF";
+    for (const uint32_t word : {2u, length, chunk, 0x4e4f534au})
+      bytes.append(reinterpret_cast<const char*>(&word), 4);
+    const std::string path = folder.write("big.glb", bytes + json);
+    std::filesystem::resize_file(path, std::uintmax_t{5} << 30);  // sparse
+    return path;
+  };
+  const auto size = static_cast<uint32_t>(json.size());
+  EXPECT_TRUE(import_gltf(glb(20 + size, size)).meshes.empty());
+  EXPECT_NE(error_of([&] { import_gltf(glb(0xfffffff0u, 0xffffffffu)); }).find("reaches beyond the file"),
+            std::string::npos);
+}
+
 TEST(GltfFiles, VersionsExtensionsAndOtherFormats) {
   const GltfBuilder b = triangle();
   const std::string body = std::string(kTriangleMesh) + R"(,"nodes":[{"mesh":0}])";
