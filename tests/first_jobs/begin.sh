@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the first jobs share; each is `NAME.sh SCONCE [FOLDER]` and says at its end how long it took. Sourced.
+# What the first jobs share; each is `NAME.sh PREFIX/bin/sconce [FOLDER]`, takes nothing of sconce but what is installed there, and
+# says at its end how long it took. Sourced.
 set -euo pipefail
-[ $# -ge 1 ] || { echo "usage: $0 SCONCE [FOLDER]" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: $0 PREFIX/bin/sconce [FOLDER]" >&2; exit 2; }
 sconce=$(realpath "$1")
-root=$(cd "$(dirname "$0")/../.." && pwd)
+prefix=$(dirname "$(dirname "$sconce")")
+scenes=$prefix/share/sconce/scenes
+here=$(cd "$(dirname "$0")" && pwd)
+[ -d "$scenes" ] || { echo "$0: $prefix is no installed sconce (cmake --install BUILD --prefix PREFIX)" >&2; exit 2; }
 if [ $# -ge 2 ]; then
   mkdir -p "$2"
   out=$(realpath "$2")

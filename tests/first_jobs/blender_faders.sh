@@ -5,7 +5,7 @@ source "$(dirname "$0")/begin.sh"
 need "${BLENDER:-blender}" blender
 
 # Somebody's file, not part of the job: a room with two lamps, each in a light group of its own.
-BLENDER_USER_SCRIPTS="$out/scripts" "${BLENDER:-blender}" -b --factory-startup --python-exit-code 1 -P "$root/tests/first_jobs/room.py" -- "$out/room.blend" >blender.log 2>&1 ||
+BLENDER_USER_SCRIPTS="$out/scripts" "${BLENDER:-blender}" -b --factory-startup --python-exit-code 1 -P "$here/room.py" -- "$out/room.blend" >blender.log 2>&1 ||
   fail "$(tail -3 blender.log)"
 
 SECONDS=0

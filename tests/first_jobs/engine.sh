@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# An engine host shows the mixed lightmap and follows a fader: examples/host_gl, built beside the program.
+# An engine host shows the mixed lightmap and follows a fader: the installed example, built against the installed library.
 source "$(dirname "$0")/begin.sh"
-host=$(dirname "$sconce")/examples/host_gl
-[ -x "$host" ] || fail "needs $host (ninja host_gl)"
+need cc gcc
+libraries=$(dirname "$(find "$prefix" -name libsconce-runtime.so | head -1)")
+host=$out/host_gl
+cc -O1 "$prefix/share/doc/sconce/examples/host_gl.c" -o "$host" -I "$prefix/include" -L "$libraries" -Wl,-rpath,"$libraries" \
+  -lsconce-runtime -lepoxy || fail "the example does not build (Debian: libepoxy-dev)"
 
-cp "$root/scenes/bathroom.glb" .
+cp "$scenes/bathroom.glb" .
 "$sconce" bake bathroom.glb --atlas 512 --quality draft --quiet
 "$host" bathroom.sconce day.ppm
 "$host" bathroom.sconce evening.ppm window=off ceiling=2700K,40%
