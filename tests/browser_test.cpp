@@ -186,6 +186,29 @@ TEST_F(Browser, NormalMaps) {
   compare({{"tier=half", Json::array(), {}}});
 }
 
+// The middle pixel of a ball before the camera is what a surface there receives that faces it, between the
+// same probes.
+TEST_F(Browser, ABallTakesTheMixFromProbes) {
+  const std::string scene = folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));
+  bake(scene, {"--atlas", "64", "--samples", "64", "--probes", "0.5"});
+  run({"export", path("x.sconce"), "--web", path("site"), "--quiet"});
+  const test::Outcome outcome =
+      node("ball.mjs", {path("site"), "ball=0,1,0.2,0.2", "left brightness, in stops", "ArrowLeft", "20"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json found = Json::parse(outcome.out);
+  EXPECT_EQ(found["errors"], Json::array());
+  const auto probed = [&](const char* setting) {
+    const test::Outcome probe =
+        test::run_sconce({"probe", path("x.sconce"), "--at", "0,1,0.2,0,0,1", "--probes", "--json", setting});
+    EXPECT_EQ(probe.code, 0) << probe.err;
+    return Json::parse(probe.out)["lux"]["average"].get<double>();
+  };
+  // The page says two digits below 100 lx, three above; the ball has 48 x 24 faces.
+  EXPECT_NEAR(found["before"].get<double>(), probed("left=1"), 0.05 * probed("left=1"));
+  EXPECT_NEAR(found["after"].get<double>(), probed("left=-2ev"), 0.05 * probed("left=-2ev"));
+  EXPECT_LT(found["after"].get<double>(), 0.8 * found["before"].get<double>());
+}
+
 // A sky is seen, and follows its fader.
 TEST_F(Browser, Sky) {
   const std::string scene = folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));

@@ -47,6 +47,8 @@ Json write_geometry(SiteFiles& files, const ShownScene& shown, bool normal_maps)
 Json write_materials(const Scene& scene, bool normal_maps);
 Json write_textures(SiteFiles& files, const Scene& scene, bool normal_maps);
 Json write_skies(SiteFiles& files, const Scene& scene);
+/// Null where the package has none.
+Json write_probes(SiteFiles& files, const Package& package);
 Json write_meter(SiteFiles& files, const MeterPoints& points);
 /// @param coefficients  of the basis that are shown
 Json write_tier(SiteFiles& files, const Package& package, std::size_t coefficients, const ShaderTier& tier,

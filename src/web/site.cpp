@@ -126,6 +126,7 @@ SiteReport write_site(const Package& package, const std::filesystem::path& folde
   report.textures = written();
   next();
   out["meter"] = write_meter(files, choose_meter_points(package, shown, progress));
+  if (Json probes = write_probes(files, package); !probes.is_null()) out["probes"] = std::move(probes);
   report.meter = written();
   for (const ShaderTier* tier : params.tiers) {
     next();

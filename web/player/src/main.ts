@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page that `sconce export --web` and `sconce serve` show. ?tier=NAME chooses layers, ?panel=off leaves the picture
-// alone.
+// alone, ?ball=X,Y,Z[,RADIUS] puts a ball into the light of the package's probes.
 
 import { loadSconce, type Sconce } from 'sconce-three';
-import { WebGLRenderer } from 'three';
+import { SphereGeometry, WebGLRenderer } from 'three';
 
 import { byId, element } from './dom';
 import { Live } from './live';
@@ -131,6 +131,10 @@ async function start(): Promise<void> {
   const tier = query.get('tier') ?? undefined;
   const sconce = await loadSconce('scene', { ...(tier ? { tier } : {}), lazy: true, onProgress: showProgress });
   document.title = sconce.name || 'sconce';
+
+  const ball = query.get('ball')?.split(',').map(Number);
+  if (ball?.every(Number.isFinite) && ball.length >= 3 && sconce.hasProbes)
+    sconce.movable(new SphereGeometry(ball[3] ?? 0.1, 48, 24), [0.8, 0.8, 0.8]).position.set(ball[0]!, ball[1]!, ball[2]!);
 
   const look = new Look(sconce, canvas);
   const state = new State(sconce);

@@ -5,11 +5,13 @@ import { Meter } from './exposure.js';
 import { fetchPacked, fetchText } from './fetch.js';
 import { Layers } from './layers.js';
 import { loadGeometry, type Output } from './materials.js';
+import { loadProbes } from './probes.js';
 import { Sconce } from './sconce.js';
 import { parseSite, type Site, type SiteTier } from './site.js';
 
 export type { Exposure, Metering } from './exposure.js';
 export type { Output } from './materials.js';
+export type { ProbeLight } from './probes.js';
 export { type ExposureMode, type Reading, Sconce } from './sconce.js';
 export { groupWeight, kelvinColor, parseSetting, type Setting, settingsOf, srgbToLinear } from './setting.js';
 export type { LightGroup, Rgb, Site, SiteCamera, SitePreset, SiteTier } from './site.js';
@@ -52,7 +54,8 @@ function chooseTier(site: Site, name?: string): SiteTier {
 
 /** Bytes that loading a tier takes, but for pictures and text. */
 function bytesOf(site: Site, tier: SiteTier): number {
-  const files = [...Object.values(site.geometry.streams), ...site.skies, site.meter.weights, site.meter.values];
+  const probes = site.probes ? [site.probes.valid, site.probes.values] : [];
+  const files = [...Object.values(site.geometry.streams), ...site.skies, site.meter.weights, site.meter.values, ...probes];
   return files.reduce((sum, file) => sum + file.bytes, tier.bytes);
 }
 
@@ -72,11 +75,12 @@ export async function loadSconce(url: string | URL, options: LoadOptions = {}): 
   const arrived = (bytes: number) => options.onProgress?.((loaded += bytes), total);
 
   const { meter } = site;
-  const [mixing, geometry, weights, values] = await Promise.all([
+  const [mixing, geometry, weights, values, probes] = await Promise.all([
     fetchText(base + tier.shader, signal),
     loadGeometry(site, base, arrived, signal),
     fetchPacked(base + meter.weights.file, 4, arrived, signal),
     fetchPacked(base + meter.values.file, 6 * site.groups.length, arrived, signal),
+    loadProbes(site.probes, site.groups.length, base, arrived, signal),
   ]);
   const sconce = new Sconce(
     site,
@@ -85,6 +89,7 @@ export async function loadSconce(url: string | URL, options: LoadOptions = {}): 
     new Layers(site, tier, base),
     new Meter(meter, site.groups.length, new Float32Array(weights), new Uint16Array(values)),
     geometry,
+    probes,
     options.output ?? 'display',
     loaded,
     total,

@@ -153,6 +153,36 @@ export function surfaceMaterial(
   });
 }
 
+const kMovableVertex = `
+out vec3 sconce_normal;
+void main() {
+  sconce_normal = mat3(modelMatrix) * normal;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}
+`;
+
+/** A diffuse thing of one albedo in the light of probes. */
+export function movableShader(tone: string, output: Output): string {
+  return finished(
+    `in vec3 sconce_normal;
+out vec4 seen;
+uniform vec3 albedo, sconce_probe[4];
+vec3 sconce_lux = vec3(0.0);
+void sconce_main() {
+  vec3 n = normalize(sconce_normal);
+  sconce_lux = max(vec3(0.0), sconce_probe[0] + n.x * sconce_probe[1] + n.y * sconce_probe[2] + n.z * sconce_probe[3]);
+  seen = vec4(albedo * sconce_lux * 0.318309886, 1.0);
+}
+`,
+    tone,
+    output,
+  );
+}
+
+export function movableMaterial(uniforms: Uniforms): ShaderMaterial {
+  return new ShaderMaterial({ name: 'movable', glslVersion: GLSL3, vertexShader: kMovableVertex, uniforms });
+}
+
 /** Stands for pictures that are not there, or not yet. */
 export const kWhite: Texture = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
 kWhite.needsUpdate = true;

@@ -29,6 +29,8 @@ import { Layers } from './layers.js';
 import {
   kWhite,
   loadPicture,
+  movableMaterial,
+  movableShader,
   type Output,
   skyMaterial,
   skyShader,
@@ -36,6 +38,7 @@ import {
   surfaceShader,
   type Uniforms,
 } from './materials.js';
+import type { ProbeLight, Probes } from './probes.js';
 import { groupWeight, parseSetting, settingsOf } from './setting.js';
 import type { LightGroup, Rgb, Site, SitePreset, SiteTier } from './site.js';
 
@@ -72,6 +75,7 @@ export class Sconce extends Group {
   private readonly sides: Mesh<BufferGeometry, ShaderMaterial[]>[];
   private readonly pictures: IUniform<Texture>[];
   private picturesArrived = false;
+  private readonly movables: Mesh<BufferGeometry, ShaderMaterial>[] = [];
 
   /** Use loadSconce(). */
   constructor(
@@ -81,6 +85,7 @@ export class Sconce extends Group {
     private readonly kept: Layers,
     private readonly meter: Meter,
     geometry: BufferGeometry,
+    private readonly probes: Probes | undefined,
     private readonly output: Output,
     private loaded: number,
     private readonly total: number,
@@ -220,6 +225,44 @@ export class Sconce extends Group {
     return { lux, luminance };
   }
 
+  /** Has the package probes (bake --probes)? */
+  get hasProbes(): boolean {
+    return this.probes !== undefined;
+  }
+  /**
+   * Light at a place, mixed as the faders are: what faces the unit n there receives max(0, e + g · n), and shows
+   * albedo · E / π cd/m².
+   * @throws Error without probes
+   */
+  probeLight(at: Vector3): ProbeLight {
+    if (!this.probes) throw new Error('this package has no probes (sconce bake --probes 1)');
+    return this.probes.mixed([at.x, at.y, at.z], this.weights);
+  }
+  /**
+   * A diffuse thing in the light of the probes around its middle; it follows the faders wherever it is moved to.
+   * @param albedo linear Rec. 709
+   * @throws Error without probes
+   */
+  movable(geometry: BufferGeometry, albedo: Readonly<Rgb>): Mesh {
+    const light = [0, 1, 2, 3].map(() => new Vector3());
+    this.probeLight(light[0]!);
+    const material = movableMaterial({
+      ...this.shared,
+      albedo: { value: new Vector3(...albedo) },
+      sconce_probe: { value: light },
+    });
+    const mesh = new Mesh(geometry, material);
+    const at = new Vector3();
+    mesh.onBeforeRender = () => {
+      this.probeLight(at.setFromMatrixPosition(mesh.matrixWorld)).forEach((k, i) => light[i]!.set(...k));
+      material.uniformsNeedUpdate = true;
+    };
+    this.movables.push(mesh);
+    this.add(mesh);
+    this.writeShaders();
+    return mesh;
+  }
+
   /** Frees what the graphics device holds. */
   dispose(): void {
     this.kept.dispose();
@@ -227,6 +270,7 @@ export class Sconce extends Group {
       geometry.dispose();
       for (const one of material) one.dispose();
     }
+    for (const { geometry, material } of this.movables) geometry.dispose(), material.dispose();
     for (const texture of [...this.pictures.map((p) => p.value), ...this.skies]) texture.dispose();
     this.sky?.geometry.dispose();
     this.sky?.material.dispose();
@@ -265,6 +309,10 @@ export class Sconce extends Group {
     const text = surfaceShader(this.site, this.mixing, tone, this.output);
     for (const material of this.sides.flatMap((mesh) => mesh.material)) {
       material.fragmentShader = text;
+      material.needsUpdate = true;
+    }
+    for (const { material } of this.movables) {
+      material.fragmentShader = movableShader(tone, this.output);
       material.needsUpdate = true;
     }
     if (!this.sky) return;

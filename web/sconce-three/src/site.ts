@@ -70,6 +70,15 @@ export interface SiteSky extends SiteFile {
   axes: number[];
 }
 
+/** docs/package-format.md, "Planes and probes". */
+export interface SiteProbes {
+  origin: Rgb;
+  spacing: number;
+  size: Rgb;
+  valid: SiteFile;
+  values: SiteFile;
+}
+
 export interface LayerTexture {
   encoding: string;
   type: 'f32' | 'f16' | 'u8' | 'bc6h';
@@ -135,6 +144,7 @@ export interface Site {
   materials: SiteMaterial[];
   textures: SiteTexture[];
   skies: SiteSky[];
+  probes?: SiteProbes;
   meter: {
     points: number;
     weights: SiteFile;
