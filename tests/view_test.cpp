@@ -11,9 +11,11 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix/preset.h"
+#include "package/points.h"
 #include "package/test_package.h"
 #include "process.h"
 #include "small_scenes.h"
+#include "tone/apply.h"
 
 namespace fs = std::filesystem;
 
@@ -284,8 +286,8 @@ TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
   const auto baked = test::run_sconce(
       {"bake", path("room.glb"), "-o", path("x.sconce"), "--density", "6", "--samples", "8", "--quiet"});
   ASSERT_EQ(baked.code, 0) << baked.err;
-  const auto outcome = view("plane desk\nset left=0.3 right=2\nfigures " + path("figures.csv") +
-                            "\nsettle\n");
+  const auto outcome =
+      view("plane desk\nset left=0.3 right=2\nfigures " + path("figures.csv") + "\nsettle\n");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::vector<std::string> lines = split(read_file(path("figures.csv")), '\n');
   ASSERT_EQ(lines.size(), 4u);  // a head, two planes, nothing behind the last end of line
@@ -305,6 +307,30 @@ TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
   const auto unknown = view("plane roof\n");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("baked: desk, floor"), std::string::npos) << unknown.err;
+}
+
+// The middle of a ball right before the camera faces it: 0.8 E / pi of the probes around, as it is exposed.
+TEST_F(ViewTest, ABallTakesTheMixFromProbes) {
+  folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));
+  const auto baked = test::run_sconce({"bake", path("room.glb"), "-o", path("x.sconce"), "--density", "6",
+                                       "--samples", "64", "--probes", "0.5", "--quiet"});
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  const auto outcome = view(
+      "eye 0,1,0.95 0,1,-1\ntone linear\nev100 1\nball 0,1,0.2 0.15\nset left=0.5\nsettle\n"
+      "screenshot " +
+      path("all.png") + "\npicture " + path("bare.png") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Image8 all = png("all.png"), bare = png("bare.png");
+  const ProbeGrid probes = *read_probes(Package::open(path("x.sconce")));
+  const Rgb e = probes.illuminance({0, 1, 0.2f}, {0, 0, 1}, std::vector<Rgb>{Rgb(0.5f), Rgb(1)});
+  const Rgb expected = tone_map(0.8f * kInvPi * e, ev100_exposure(1, 1), find_tone_mapper("linear"));
+  const int x = bare.width / 2, y = 44 + bare.height / 2;  // below the bar
+  const unsigned char* seen = &all.data[3 * static_cast<std::size_t>(y * all.width + x)];
+  EXPECT_NEAR(seen[0], 255 * expected.r, 3);
+  EXPECT_NEAR(seen[1], 255 * expected.g, 3);
+  EXPECT_NEAR(seen[2], 255 * expected.b, 3);
+  EXPECT_GT(seen[1], 40);
+  EXPECT_LT(seen[1], 230);
 }
 
 TEST_F(ViewTest, OtherRenderersPicturesHaveTheSameFaders) {

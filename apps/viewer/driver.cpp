@@ -216,6 +216,11 @@ bool Driver::perform(const Action& action) {
     if (arguments.size() > 1) s.plane.spacing = numbers(action, 1, 1)[0];
     return v.measure(), frames_ = 1, true;
   }
+  if (word == "ball") {
+    const auto at = numbers(action, 0, 3);
+    return v.place_ball({at[0], at[1], at[2]}, arguments.size() > 1 ? numbers(action, 1, 1)[0] : 0.1f),
+           frames_ = 1, true;
+  }
   if (word == "figures") return v.write_figures(arguments[0]), true;
   if (word == "wish") {
     const auto at = numbers(action, 0, 3);

@@ -143,6 +143,17 @@ void Viewer::design_panel() {
   if (state_.sheet) return;
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();
+  if (state_.opened->probes) {
+    if (ImGui::Button(state_.ball ? "Take the ball away" : "Place a ball", {-1, 0})) {
+      if (state_.ball)
+        state_.ball.reset();
+      else
+        place_ball(Vec3(state_.camera.frame[3]) -
+                       0.25f * state_.opened->rays.world().bounds.diagonal() * Vec3(state_.camera.frame[2]),
+                   0.1f);
+    }
+    tip("in the light of the package's probes, as what moves in an engine");
+  }
   if (ImGui::Button("Write to scene", {-1, 0})) attempt([&] { save_scene({}); });
   tip("NAME-relit.glb beside the package: lamps and emitters as strong as mixed");
 }

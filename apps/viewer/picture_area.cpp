@@ -125,6 +125,7 @@ void Viewer::overlays() {
   const Lens from = lens();
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
 
+  ball_overlay(draw, from);
   const MeasuredPlane& plane = state_.plane.measured;
   if (state_.plane.shown && plane.light.samples > 0) {
     const std::vector<float> lux = lux_of(plane.light, mix);

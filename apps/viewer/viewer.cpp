@@ -207,7 +207,7 @@ void Viewer::start_session(const std::vector<GroupInfo>& groups) {
   state_.session = std::make_unique<Session>(groups);
   state_.scales.clear(), state_.goals.clear(), state_.sought.clear();
   state_.look = LookKind::picture;
-  state_.plane.shown = false;
+  state_.plane.shown = false, state_.ball.reset();
   // The exposure is metered once and held, so that a fader that goes down darkens the picture.
   const Metering metering = metering_now();
   state_.session->meter_once(metering);

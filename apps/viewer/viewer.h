@@ -50,6 +50,12 @@ struct Plane {
   MeasuredPlane measured;                ///< without a name where it is traced
 };
 
+/// Lit by the package's probes.
+struct Ball {
+  Vec3 middle{0};
+  float radius = 0.1f;
+};
+
 /// "300 lx here".
 struct Goal {
   Vec3 position{0}, normal{0, 1, 0};
@@ -95,6 +101,7 @@ struct State {
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
   MovingLamps lamps;
+  std::optional<Ball> ball;
   std::vector<Goal> goals;
   std::string sought;                                ///< what goal seeking found, in words
   std::deque<std::pair<std::string, double>> notes;  ///< lines that fade, with the time they end
@@ -138,6 +145,9 @@ class Viewer {
   void show_plane(const MeasuredPlane& baked);
   /// Figures of all planes as mixed, a line each, with a head. @throws Error
   void write_figures(const std::filesystem::path& file) const;
+  /// @throws Error where the package has no probes
+  void place_ball(const Vec3& middle, float radius);
+  void ball_overlay(ImDrawList& draw, const Lens& from) const;
   void forget_lamps();
   void prepare_lamps();
   void light_lamps();

@@ -10,7 +10,8 @@ Opened::Opened(const std::filesystem::path& path)
       rays(package),
       layers(read_layers(package)),
       meter(package, rays.scene()),
-      planes(baked_planes(package)) {}
+      planes(baked_planes(package)),
+      probes(read_probes(package)) {}
 
 std::vector<Image> mixed_noise(const Opened& opened, const MixSpec& mix) {
   const Manifest& m = opened.package.manifest();

@@ -19,6 +19,7 @@ struct Opened {
   EncodedLayers layers;
   LightMeter meter;
   std::vector<MeasuredPlane> planes;  ///< baked with it
+  std::optional<ProbeGrid> probes;    ///< likewise
 };
 
 /// Relative standard error of a mix in percent, per page: groups taken as independent, so that squares add.

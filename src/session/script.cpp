@@ -33,6 +33,7 @@ constexpr ActionRow kRows[] = {
     {"lines", "on|off", "iso-lines over false colours", 1, 1},
     {"plane", "NAME|HEIGHT [SPACING]",
      "shows lux on a baked plane, or measures it on a horizontal one, metres above the floor", 1, 2},
+    {"ball", "X,Y,Z [RADIUS]", "puts a ball there, lit by the package's probes, metres", 1, 2},
     {"figures", "FILE.csv", "writes minimum, average, maximum and uniformity of all planes, as mixed", 1, 1},
     {"wish", "X,Y,Z[,NX,NY,NZ] LUX", "a goal at a point, metres; faces up unless told otherwise", 2, 2},
     {"lamp", "LAMP X,Y,Z", "a lamp leaves its layer and shines from there", 2, 2},
