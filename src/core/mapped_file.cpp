@@ -16,6 +16,7 @@ namespace sconce {
 MappedFile::MappedFile(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
+  if (file < 0 && errno == ENOENT) throw Error(path.string(), "no such file");
   if (file < 0 || ::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     const std::string why = file < 0 ? std::strerror(errno) : "is no file";
     if (file >= 0) ::close(file);
