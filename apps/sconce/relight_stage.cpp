@@ -21,7 +21,9 @@ namespace {
 class CpuRelightStage : public RelightStage {
  public:
   CpuRelightStage(const RelightJob& job, const FoldedBounces& bounces)
-      : view_(job.view), relighter_(job.package, job.view, job.op, bounces, job.lamps, job.cull) {}
+      : view_(job.view),
+        lamps_(job.lamps),
+        relighter_(job.package, job.view, job.op, bounces, job.lamps, job.cull) {}
   std::string device() const override { return "cpu"; }
   Relighter::Seconds seconds() const override { return relighter_.seconds(); }
   Culling::Report culled() const override {
@@ -36,11 +38,15 @@ class CpuRelightStage : public RelightStage {
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
              const std::vector<Image>& components, const PictureParams& params,
              const Progress& progress) override {
-    return view_.render(camera, mix, pages, params, progress, nullptr, relighter_.added(), components);
+    return view_.render(
+        camera, mix, pages, params, progress, nullptr, relighter_.added(), components,
+        [&](const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, uint32_t stream,
+            uint32_t index) { return lamps_.glints(mix, surface, to_eye, at, stream, index); });
   }
 
  private:
   const View& view_;
+  const MovedLamps& lamps_;
   Relighter relighter_;
 };
 

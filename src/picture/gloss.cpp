@@ -24,6 +24,26 @@ Vec3 visible_normal(const Vec3& to_eye, float alpha, Vec2 u) {
   return normalize_or(Vec3(alpha * half.x, alpha * half.y, half.z), Vec3(0, 0, 1));
 }
 
+/// Of the eye's side; interpolated and mapped normals may turn away from it.
+Frame frame_at(const SurfacePoint& at, const Vec3& to_eye) {
+  return Frame(glm::dot(at.shading_normal, to_eye) > 0 ? at.shading_normal : at.geometric_normal);
+}
+
+Vec3 to_local(const Frame& frame, const Vec3& v) {
+  return {glm::dot(v, frame.x), glm::dot(v, frame.y), glm::dot(v, frame.z)};
+}
+
+float coat_of(const Shade& surface, float grazing) {
+  return surface.roughness <= Material::kGlossy ? kDielectric + (1 - kDielectric) * grazing : 0;
+}
+
+/// @param cosine  between the eye and a facet
+Rgb mirrored_by(const Shade& surface, float cosine) {
+  const float grazing = schlick(cosine);
+  const Rgb metal = surface.base_color + grazing * (Rgb(1) - surface.base_color);
+  return (1 - surface.metallic) * Rgb(coat_of(surface, grazing)) + surface.metallic * metal;
+}
+
 }  // namespace
 
 bool mirrors(const Shade& surface) {
@@ -31,10 +51,8 @@ bool mirrors(const Shade& surface) {
 }
 
 Gloss gloss(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, Vec2 u) {
-  // Interpolated and mapped normals may turn away from the eye.
-  const bool seen = glm::dot(at.shading_normal, to_eye) > 0;
-  const Frame frame(seen ? at.shading_normal : at.geometric_normal);
-  const Vec3 local(glm::dot(to_eye, frame.x), glm::dot(to_eye, frame.y), glm::dot(to_eye, frame.z));
+  const Frame frame = frame_at(at, to_eye);
+  const Vec3 local = to_local(frame, to_eye);
   const Vec3 facet = frame.to_world(visible_normal(local, surface.roughness * surface.roughness, u));
   const float cosine = glm::dot(to_eye, facet);
 
@@ -42,12 +60,29 @@ Gloss gloss(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, Ve
   out.direction = glm::normalize(2 * cosine * facet - to_eye);
   const float below = glm::dot(out.direction, at.geometric_normal);
   if (below < 0) out.direction -= 2 * below * at.geometric_normal;
-  const float grazing = schlick(cosine);
-  const float coat = surface.roughness <= Material::kGlossy ? kDielectric + (1 - kDielectric) * grazing : 0;
-  out.diffuse = 1 - coat;
-  const Rgb metal = surface.base_color + grazing * (Rgb(1) - surface.base_color);
-  out.mirrored = (1 - surface.metallic) * Rgb(coat) + surface.metallic * metal;
+  out.diffuse = 1 - coat_of(surface, schlick(cosine));
+  out.mirrored = mirrored_by(surface, cosine);
   return out;
+}
+
+Rgb gloss_of(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
+             float least_alpha) {
+  const float above = glm::dot(direction, at.geometric_normal);
+  if (!(above > 0)) return {};
+  const Frame frame = frame_at(at, to_eye);
+  const Vec3 eye = to_local(frame, to_eye);
+  if (!(eye.z > 0)) return {};
+  const float alpha = std::max(surface.roughness * surface.roughness, least_alpha), alpha2 = alpha * alpha;
+  // D G1 / (4 cos) of visible normals, of what gloss() turns up from below, too.
+  const float masked = 2 * (eye.z + std::sqrt(alpha2 + (1 - alpha2) * eye.z * eye.z));
+  Rgb sum;
+  for (const Vec3& from : {direction, direction - 2 * above * at.geometric_normal}) {
+    const Vec3 facet = normalize_or(eye + to_local(frame, from), Vec3(0));
+    if (!(facet.z > 0)) continue;
+    const float wide = facet.x * facet.x + facet.y * facet.y + alpha2 * facet.z * facet.z;
+    sum += mirrored_by(surface, glm::dot(eye, facet)) * (alpha2 / (kPi * wide * wide * masked));
+  }
+  return sum;
 }
 
 }  // namespace sconce

@@ -29,4 +29,10 @@ bool mirrors(const Shade& surface);
 /// @param u       random, in [0,1)
 Gloss gloss(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, Vec2 u);
 
+/// The same lobe for light that comes from a known direction: luminance towards the eye per lux of a surface
+/// that faces the light; its integral over all directions is Gloss::mirrored.
+/// @param least_alpha  of the lobe's width (roughness squared): a lamp that is a point is as wide
+Rgb gloss_of(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
+             float least_alpha);
+
 }  // namespace sconce

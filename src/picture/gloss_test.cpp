@@ -78,5 +78,30 @@ TEST(Gloss, LobeIsThatOfGgx) {
   }
 }
 
+// The lobe towards a known direction is the one that gloss() samples: all of it together is 1 for a white
+// metal, and its mean direction is the samples'.
+TEST(Gloss, TheLobeIsWhatIsSampled) {
+  for (const float roughness : {0.3f, 0.6f, 1.0f})
+    for (const float degrees : {0.0f, 30.0f, 75.0f}) {
+      Shade white = surface(1, roughness);
+      white.base_color = Rgb(1);
+      constexpr uint32_t kCount = 1 << 16;
+      double whole = 0;
+      glm::dvec3 lobe(0), sampled(0);
+      for (uint32_t i = 0; i < kCount; ++i) {
+        const Vec2 u = sobol_pair(i, 0, 9);
+        const float r = std::sqrt(1 - u.x * u.x), phi = 2 * kPi * u.y;
+        const Vec3 direction(r * std::cos(phi), u.x, r * std::sin(phi));
+        const double share = 2 * M_PI / kCount *
+                             static_cast<double>(gloss_of(white, at_angle(degrees), kFloor, direction, 0).g);
+        whole += share, lobe += share * glm::dvec3(direction);
+        sampled += glm::dvec3(gloss(white, at_angle(degrees), kFloor, u).direction) / double{kCount};
+      }
+      EXPECT_NEAR(whole, 1, 0.01) << roughness << " " << degrees;
+      EXPECT_NEAR(glm::distance(lobe, sampled), 0, 0.01) << roughness << " " << degrees;
+    }
+  EXPECT_TRUE(gloss_of(surface(1, 0.5f), at_angle(0), kFloor, Vec3(0, -1, 0), 0).is_black());
+}
+
 }  // namespace
 }  // namespace sconce

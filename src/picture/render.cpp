@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "picture/glint.h"
 #include "picture/gloss.h"
 #include "picture/seen.h"
 
@@ -14,7 +15,7 @@ namespace sconce {
 namespace {
 
 constexpr int kTile = 32;  // pixels
-constexpr uint32_t kLobeStream = 0x6c6f6265u;
+constexpr uint32_t kLobeStream = 0x6c6f6265u, kGlintStream = 0x676c696eu;
 // Where a ray meets a lobe wider than a pixel, several rays follow it: a lamp in it is small and bright.
 constexpr float kSharp = 0.05f;  // roughness
 constexpr uint32_t kLobeRays = 4;
@@ -45,6 +46,18 @@ Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {
   return {std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f)};
 }
 
+Rgb View::glints(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Sight& sight) const {
+  if (sight.glints) return sight.glints(surface, to_eye, at, sight.stream ^ kGlintStream, sight.index);
+  Rgb sum;
+  for (const std::size_t lamp : near_) {
+    const Rgb weight = weight_of(sight.mix.spec, lamps_->all()[lamp].group);
+    if (weight.is_black()) continue;
+    const uint32_t stream = mix32(sight.stream ^ kGlintStream, static_cast<uint32_t>(lamp));
+    sum += weight * glint(*lamps_, lamp, tracer_, surface, to_eye, at, sobol_pair(sight.index, 0, stream));
+  }
+  return sum;
+}
+
 Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Rgb& through,
                     const Sight& sight, int met) const {
   const bool lit = !hit.back || scene()[world().materials[hit.triangle]].double_sided;
@@ -73,6 +86,7 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
     const Gloss part = gloss(surface, -ray.direction, at, u);
     const Vec3 start = offset_origin(at.position, at.geometric_normal, part.direction);
     sum += part.diffuse * diffuse + part.mirrored * look({start, part.direction}, onwards, met + 1).radiance;
+    sum += glints(surface, -ray.direction, at, onwards);
   }
   return sum / static_cast<float>(rays);
 }
@@ -108,7 +122,8 @@ View::Seen View::look(const Ray& ray, const Sight& sight, int met, int panes) co
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                    const PictureParams& params, const Progress& progress, Image* coverage,
-                   const AddedLight& added, const std::vector<Image>& components) const {
+                   const AddedLight& added, const std::vector<Image>& components,
+                   const AddedGlints& glints) const {
   params.check();
   check_pages(package_->manifest(), mix, pages);
   if (!components.empty() && components.size() != 3 * pages.size())
@@ -128,7 +143,7 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     const uint32_t stream = mix32(id, params.seed ^ kLobeStream);
     for (int s = 0; s < params.samples; ++s) {
       const auto index = static_cast<uint32_t>(s);
-      Sight sight{mixed, {}, params.reflections, stream, index};
+      Sight sight{mixed, {}, glints, params.reflections, stream, index};
       if (added) sight.added = [&](const SurfacePoint& at) { return added(at, x, y, index); };
       const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, sight);
       sum += seen.radiance;

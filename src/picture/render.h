@@ -4,8 +4,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "core/progress.h"
+#include "light/lamp.h"
 #include "mix/mix.h"
 #include "package/shown_scene.h"
 #include "picture/hits.h"
@@ -17,6 +19,10 @@ namespace sconce {
 /// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux;
 /// its shading normal is the normal map's where components are given. Thread-safe.
 using AddedLight = std::function<Rgb(const SurfacePoint& at, int x, int y, uint32_t sample)>;
+
+/// In place of the mix's lamps: what a glossy surface mirrors of light fields, cd/m2. Thread-safe.
+using AddedGlints = std::function<Rgb(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at,
+                                      uint32_t stream, uint32_t index)>;
 
 /// A package ready to be looked at: geometry, rays, lightmap coordinates. Thread-safe once built.
 class View {
@@ -30,8 +36,8 @@ class View {
   /// rho/pi E_g). Backs are black, but for those with a lightmap of their own (twins) and for what
   /// double-sided materials emit. What panes let through is seen behind them. Rays that leave the scene see
   /// its skies. With params.reflections surfaces also show what they mirror (picture/gloss.h), lit by the
-  /// same mix; the last in a row shows all that it reflects without direction, rho/pi E. The same bits with
-  /// any number of threads.
+  /// same mix, and glints of its light fields; the last in a row shows all that it reflects without
+  /// direction, rho/pi E. The same bits with any number of threads.
   /// @param pages       mix_pages() of the same mix
   /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky)
   /// directly, one channel
@@ -41,7 +47,8 @@ class View {
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
-               const AddedLight& added = {}, const std::vector<Image>& components = {}) const;
+               const AddedLight& added = {}, const std::vector<Image>& components = {},
+               const AddedGlints& glints = {}) const;
   /// Whether components would be seen.
   bool sees_normal_maps() const;
   /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move. Normal maps
@@ -86,6 +93,7 @@ class View {
   struct Sight {
     const Mixed& mix;
     std::function<Rgb(const SurfacePoint&)> added;
+    const AddedGlints& glints;
     int reflections;
     uint32_t stream, index;  ///< random numbers of the mirrors' lobes
   };
@@ -96,11 +104,15 @@ class View {
   Rgb reflected(const Ray& ray, const Hit& hit, const Shade& surface, const Rgb& through, const Sight& sight,
                 int met) const;
   Rgb illuminance(const Hit& hit, const Mixed& mix) const;
+  /// Of the mix's light fields, cd/m2.
+  Rgb glints(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Sight& sight) const;
   Camera eye_height_camera() const;
 
   const Package* package_;
   ShownScene shown_;
   Tracer tracer_;
+  std::unique_ptr<const Lamps> lamps_;  ///< null where none is a light field
+  std::vector<std::size_t> near_;       ///< those that are
 };
 
 }  // namespace sconce

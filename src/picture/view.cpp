@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a package is looked at from.
+#include <algorithm>
+
+#include "picture/glint.h"
 #include "picture/render.h"
 
 namespace sconce {
 
 View::View(const Package& package)
-    : package_(&package), shown_(package), tracer_(shown_.scene, shown_.world) {}
+    : package_(&package), shown_(package), tracer_(shown_.scene, shown_.world) {
+  const auto& all = scene().luminaires;
+  if (std::any_of(all.begin(), all.end(), [](const Luminaire& l) { return l.field != nullptr; }))
+    lamps_ = std::make_unique<const Lamps>(scene(), world());
+  if (lamps_) near_ = near_lamps(*lamps_);
+}
 
 bool View::sees_normal_maps() const {
   return package_->manifest().basis == Basis::sh1 && scene().has_normal_maps();

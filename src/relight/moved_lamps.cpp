@@ -5,6 +5,8 @@
 
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "picture/glint.h"
+#include "picture/seen.h"
 
 namespace sconce {
 
@@ -51,7 +53,8 @@ MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tra
       tracer_(tracer),
       scene_(with(scene, world, lights, moves)),
       moved_world_(moves_meshes(scene, moves) ? make_world(scene_) : World()),
-      lamps_(scene_, moved_world_.size() > 0 ? moved_world_ : world_) {
+      lamps_(scene_, moved_world_.size() > 0 ? moved_world_ : world_),
+      near_(near_lamps(lamps_)) {
   const std::size_t more = lights.size();
   // Lamps of the scene alone, by their number there.
   const auto before = [&](std::size_t i) { return i < scene.lights.size() ? i : i - more; };
@@ -106,6 +109,20 @@ Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t in
     sum += chosen.weight * passed * light.radiance * (cosine / density);
   }
   if (!met_.empty()) sum += met(at, start, stream, index);
+  return sum;
+}
+
+Rgb MovedLamps::glints(const MixSpec& mix, const Shade& surface, const Vec3& to_eye, const SurfacePoint& at,
+                       uint32_t stream, uint32_t index) const {
+  Rgb sum;
+  for (const std::size_t lamp : near_) {
+    const auto chosen =
+        std::find_if(chosen_.begin(), chosen_.end(), [&](const Chosen& c) { return c.lamp == lamp; });
+    const Rgb weight = chosen != chosen_.end() ? chosen->weight : weight_of(mix, lamps_.all()[lamp].group);
+    if (weight.is_black()) continue;
+    const Vec2 u = sobol_pair(index, 0, mix32(stream, static_cast<uint32_t>(lamp)));
+    sum += weight * glint(lamps_, lamp, tracer_, surface, to_eye, at, u);
+  }
   return sum;
 }
 

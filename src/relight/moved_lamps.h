@@ -2,6 +2,7 @@
 // Lamps that are not in any layer: new ones, those of light groups that come by transfer, moved or not.
 #pragma once
 
+#include "mix/mix.h"
 #include "relight/lamp_move.h"
 #include "trace/tracer.h"
 #include "transfer/operator.h"
@@ -29,6 +30,11 @@ class MovedLamps {
   /// soft shadow. Thread-safe.
   Rgb illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const;
 
+  /// What a glossy surface mirrors of all light fields, these and those of the mix, cd/m2 (picture/glint.h).
+  /// Thread-safe.
+  Rgb glints(const MixSpec& mix, const Shade& surface, const Vec3& to_eye, const SurfacePoint& at,
+             uint32_t stream, uint32_t index) const;
+
   /// Names of lamps from which most rays end on backs of surfaces: they stand inside something.
   std::vector<std::string> buried() const;
 
@@ -45,6 +51,7 @@ class MovedLamps {
   Scene scene_;
   World moved_world_;  ///< empty where no mesh moved
   Lamps lamps_;
+  std::vector<std::size_t> near_;  ///< all that are light fields
   std::vector<Chosen> chosen_;
   std::vector<Rgb> met_;  ///< per lamp: weight of those that rays can meet; empty where there are none
 };
