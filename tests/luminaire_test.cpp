@@ -196,7 +196,7 @@ TEST(LuminaireBake, LightFieldOfBothSignsInAWhiteSphere) {
   write_light_field(folder / "lamp.exr", field);
   folder.write("sphere.toml", "[[luminaire]]\nfile = \"lamp.exr\"\nat = [0, 0, 0]\n");
   for (const char* solver : {"path", "radiosity", "photon"}) {
-    const Package package = baked(folder / "sphere.glb", folder / "sphere.sconce", 2, 64, -1, solver);
+    const Package package = baked(folder / "sphere.glb", folder / "sphere.sconce", 4, 256, -1, solver);
     const GroupInfo& group = package.manifest().groups.at(0);
     EXPECT_NEAR(group.lumens, flux(field), 1e-3 * flux(field)) << solver;
     EXPECT_NEAR(group.mean_lux / (flux(field) / (4 * kPiD * 9 * 0.5)), 1, 0.02) << solver;
