@@ -1,76 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window, driven by scripts on a display of its own; its pictures against the CPU's.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/files.h"
-#include "core/text.h"
 #include "image/io.h"
 #include "mix/preset.h"
-#include "package/points.h"
-#include "package/test_package.h"
-#include "process.h"
-#include "small_scenes.h"
-#include "tone/apply.h"
+#include "view_window.h"
 
 namespace fs = std::filesystem;
 
 namespace sconce {
 namespace {
-
-class ViewTest : public testing::Test {
- protected:
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void bake() {
-    const auto outcome =
-        test::run_sconce({"bake", (fs::path(SCONCE_SOURCE_DIR) / "scenes/bathroom.glb").string(), "-o",
-                          path("x.sconce"), "--atlas", "256", "--samples", "8", "--quiet"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-  }
-  /// Two lamps and an operator.
-  void bake_movable() {
-    folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
-          {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
-      const auto made = test::run_sconce(words);
-      ASSERT_EQ(made.code, 0) << made.err;
-    }
-  }
-  /// Does the work as soon as the window has written that picture.
-  std::thread after(const std::string& picture, const std::function<void()>& work) const {
-    return std::thread([this, picture, work] {
-      for (int i = 0; i < 3000 && !fs::exists(path(picture)); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      work();
-    });
-  }
-  test::Outcome view(const std::string& script, const std::string& input = "x.sconce",
-                     const std::vector<std::string>& options = {}) {
-    folder_.write("script.txt", script);
-    std::vector<std::string> arguments{"view",   path(input), "--script", path("script.txt"),
-                                       "--size", "900x560"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    return test::run_sconce(arguments, test::with_display("900x560", 100));
-  }
-  Image8 png(const std::string& name) const {
-    const std::string bytes = read_file(path(name));
-    return decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, name, 3);
-  }
-  static double mean_difference(const Image8& a, const Image8& b) {
-    EXPECT_EQ(a.data.size(), b.data.size());
-    double sum = 0;
-    for (std::size_t i = 0; i < std::min(a.data.size(), b.data.size()); ++i)
-      sum += std::abs(int{a.data[i]} - int{b.data[i]});
-    return sum / static_cast<double>(a.data.size());
-  }
-  TemporaryFolder folder_;
-};
 
 TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
   bake();
@@ -265,72 +206,6 @@ TEST_F(ViewTest, Turntable) {
               2)
         << number;
   EXPECT_FALSE(fs::exists(path("turn4.png")));
-}
-
-TEST_F(ViewTest, GoalsAreReached) {
-  bake();
-  const auto fitted =
-      test::run_sconce({"fit", path("x.sconce"), "--lux", "1,0.8,1=250", "-o", path("fit.toml"), "--json"});
-  ASSERT_EQ(fitted.code, 0) << fitted.err;
-  EXPECT_NE(fitted.out.find("\"lux\": 2"), std::string::npos) << fitted.out;  // 24x to 25x
-  EXPECT_EQ(read_preset(path("fit.toml")).assignments.size(), 4u);
-  EXPECT_EQ(test::run_sconce({"fit", path("x.sconce")}).code, 2);
-  EXPECT_EQ(test::run_sconce({"fit", path("x.sconce"), "--lux", "1,2=3"}).code, 2);
-}
-
-TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
-  write_file(folder_ / "room.glb", write_glb(test::two_lamp_room(), "test"));
-  folder_.write("room.toml",
-                "[[plane]]\nname = \"desk\"\nat = \"floor+0.9\"\ngrid = 0.4\n"
-                "[[plane]]\nname = \"floor\"\nat = \"floor+0.01\"\ngrid = 0.4\n");
-  const auto baked = test::run_sconce(
-      {"bake", path("room.glb"), "-o", path("x.sconce"), "--density", "6", "--samples", "8", "--quiet"});
-  ASSERT_EQ(baked.code, 0) << baked.err;
-  const auto outcome =
-      view("plane desk\nset left=0.3 right=2\nfigures " + path("figures.csv") + "\nsettle\n");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const std::vector<std::string> lines = split(read_file(path("figures.csv")), '\n');
-  ASSERT_EQ(lines.size(), 4u);  // a head, two planes, nothing behind the last end of line
-  for (const auto& [line, name] : {std::pair{lines[1], "desk"}, {lines[2], "floor"}}) {
-    const std::vector<std::string> figures = split(line, ',');
-    EXPECT_EQ(figures.at(0), name);
-    const auto probed =
-        test::run_sconce({"probe", path("x.sconce"), "--plane", name, "left=0.3", "right=2", "--json"});
-    ASSERT_EQ(probed.code, 0) << probed.err;
-    const auto lux = nlohmann::json::parse(probed.out)["lux"];
-    std::size_t i = 2;
-    for (const char* figure : {"minimum", "average", "maximum", "uniformity"})
-      EXPECT_NEAR(parse_number(figures.at(i++)).value(), lux[figure].get<double>(),
-                  1e-5 * lux[figure].get<double>())
-          << figure;
-  }
-  const auto unknown = view("plane roof\n");
-  EXPECT_EQ(unknown.code, 2);
-  EXPECT_NE(unknown.err.find("baked: desk, floor"), std::string::npos) << unknown.err;
-}
-
-// The middle of a ball right before the camera faces it: 0.8 E / pi of the probes around, as it is exposed.
-TEST_F(ViewTest, ABallTakesTheMixFromProbes) {
-  folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));
-  const auto baked = test::run_sconce({"bake", path("room.glb"), "-o", path("x.sconce"), "--density", "6",
-                                       "--samples", "64", "--probes", "0.5", "--quiet"});
-  ASSERT_EQ(baked.code, 0) << baked.err;
-  const auto outcome = view(
-      "eye 0,1,0.95 0,1,-1\ntone linear\nev100 1\nball 0,1,0.2 0.15\nset left=0.5\nsettle\n"
-      "screenshot " +
-      path("all.png") + "\npicture " + path("bare.png") + "\n");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Image8 all = png("all.png"), bare = png("bare.png");
-  const ProbeGrid probes = *read_probes(Package::open(path("x.sconce")));
-  const Rgb e = probes.illuminance({0, 1, 0.2f}, {0, 0, 1}, std::vector<Rgb>{Rgb(0.5f), Rgb(1)});
-  const Rgb expected = tone_map(0.8f * kInvPi * e, ev100_exposure(1, 1), find_tone_mapper("linear"));
-  const int x = bare.width / 2, y = 44 + bare.height / 2;  // below the bar
-  const unsigned char* seen = &all.data[3 * static_cast<std::size_t>(y * all.width + x)];
-  EXPECT_NEAR(seen[0], 255 * expected.r, 3);
-  EXPECT_NEAR(seen[1], 255 * expected.g, 3);
-  EXPECT_NEAR(seen[2], 255 * expected.b, 3);
-  EXPECT_GT(seen[1], 40);
-  EXPECT_LT(seen[1], 230);
 }
 
 TEST_F(ViewTest, OtherRenderersPicturesHaveTheSameFaders) {
