@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "../examples/room/room.h"
+#include "browser.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
-#include "core/test_data.h"
 #include "image/io.h"
-#include "process.h"
 #include "scene/lens.h"
 #include "scene/shapes.h"
 #include "trace/tracer.h"
@@ -117,13 +116,6 @@ Difference difference(const std::string& with, const std::string& without, const
   const auto n = static_cast<double>(paths.pixels());
   return {std::sqrt(squares / n) / (expected / n), sum / expected};
 }
-
-#define SCONCE_NEEDS_BROWSER()                                                                    \
-  if (!test::can_browse()) {                                                                      \
-    constexpr const char* kMissing = "node, chromium or web/node_modules ('make web') is absent"; \
-    if (test_data_required()) FAIL() << kMissing;                                                 \
-    GTEST_SKIP() << kMissing;                                                                     \
-  }
 
 class Renderer : public testing::TestWithParam<const char*> {
  protected:

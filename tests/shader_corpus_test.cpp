@@ -5,9 +5,8 @@
 
 #include <regex>
 
+#include "browser.h"
 #include "core/error.h"
-#include "core/test_data.h"
-#include "process.h"
 #include "shader/test_glslang.h"
 #include "shader/vertex_override.h"
 
@@ -29,11 +28,7 @@ void expect_taken(const std::set<std::string>& shaders, std::size_t at_least) {
 // What WebGL is handed for its materials, with and without lights, shadows, fog, maps, bones, morphs,
 // instances.
 TEST(ShaderCorpus, ThreeJs) {
-  if (!test::can_browse()) {
-    constexpr const char* kMissing = "node, chromium or web/node_modules ('make web') is absent";
-    if (test_data_required()) FAIL() << kMissing;
-    GTEST_SKIP() << kMissing;
-  }
+  SCONCE_NEEDS_BROWSER();
   const TemporaryFolder folder;
   const test::Outcome outcome =
       test::run_program("node", {SCONCE_SOURCE_DIR "/web/test/three_shaders.mjs", (folder / ".").string()});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window, driven by scripts on a display of its own; its pictures against the CPU's.
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/files.h"
