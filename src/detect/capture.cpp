@@ -53,6 +53,8 @@ bool shows_background(const TextureSpace& space, const Captured& captured, float
   return any;
 }
 
+}  // namespace
+
 Captured capture_once(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
                       const std::string& what) {
   if (!host.draw) throw Error(of_renderer(what), "there is no renderer");
@@ -99,8 +101,6 @@ Captured capture_once(const HostRenderer& host, const TextureSpace& space, DrawR
   }
   return out;
 }
-
-}  // namespace
 
 void Captured::append(const Captured& other) {
   light.insert(light.end(), other.light.begin(), other.light.end());

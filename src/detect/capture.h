@@ -31,12 +31,15 @@ struct Captured {
   void append(const Captured& other);
 };
 
-/// Lets the renderer draw. Where all lights leave everything black, a second drawing on white tells whether
-/// it draws at all.
+/// What the renderer draws, once.
 /// @param request  its size, triangles and corners are set here, from `space`
 /// @param what     for messages: what is drawn
-/// @throws Error naming the renderer's fault: it threw, has the wrong size or format, drew what is no light,
-/// or nothing
+/// @throws Error naming the renderer's fault: it threw, has the wrong size or format, drew what is no light
+Captured capture_once(const HostRenderer& host, const TextureSpace& space, DrawRequest request,
+                      const std::string& what);
+/// The same; where all lights leave everything black, a second drawing on white tells whether it draws at
+/// all.
+/// @throws Error also when it draws nothing
 Captured capture(const HostRenderer& host, const TextureSpace& space, const DrawRequest& request,
                  const std::string& what);
 

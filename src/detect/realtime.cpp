@@ -196,8 +196,14 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   request.lights = DrawRequest::Lights::all;
   Captured direct;
   try {
-    direct = capture(host_, direct_, request, "direct light");
-    if (!backs_.triangles.empty()) direct.append(capture(host_, backs_, request, "direct light on backs"));
+    Captured backs;
+    if (!backs_.triangles.empty()) backs = capture_once(host_, backs_, request, "direct light on backs");
+    // A renderer that lit backs draws: fronts in the dark need no second look.
+    const bool lit =
+        std::any_of(backs.light.begin(), backs.light.end(), [](const Rgb& e) { return e.max() > 0; });
+    direct = lit ? capture_once(host_, direct_, request, "direct light")
+                 : capture(host_, direct_, request, "direct light");
+    direct.append(backs);
   } catch (const Error& e) {
     report.fault = e.what();
     std::fill(ambient_.begin(), ambient_.end(), Rgb());
