@@ -44,6 +44,26 @@ Rgb mirrored_by(const Shade& surface, float cosine) {
   return (1 - surface.metallic) * Rgb(coat_of(surface, grazing)) + surface.metallic * metal;
 }
 
+/// Calls found(density per steradian, cosine between the eye and the facet) for the facets that mirror light
+/// from a direction: D G1 / (4 cos) of visible normals, of what gloss() turns up from below, too.
+template <class F>
+void for_each_facet(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
+                    float least_alpha, const F& found) {
+  const float above = glm::dot(direction, at.geometric_normal);
+  if (!(above > 0)) return;
+  const Frame frame = frame_at(at, to_eye);
+  const Vec3 eye = to_local(frame, to_eye);
+  if (!(eye.z > 0)) return;
+  const float alpha = std::max(surface.roughness * surface.roughness, least_alpha), alpha2 = alpha * alpha;
+  const float masked = 2 * (eye.z + std::sqrt(alpha2 + (1 - alpha2) * eye.z * eye.z));
+  for (const Vec3& from : {direction, direction - 2 * above * at.geometric_normal}) {
+    const Vec3 facet = normalize_or(eye + to_local(frame, from), Vec3(0));
+    if (!(facet.z > 0)) continue;
+    const float wide = facet.x * facet.x + facet.y * facet.y + alpha2 * facet.z * facet.z;
+    found(alpha2 / (kPi * wide * wide * masked), glm::dot(eye, facet));
+  }
+}
+
 }  // namespace
 
 bool mirrors(const Shade& surface) {
@@ -67,21 +87,16 @@ Gloss gloss(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, Ve
 
 Rgb gloss_of(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
              float least_alpha) {
-  const float above = glm::dot(direction, at.geometric_normal);
-  if (!(above > 0)) return {};
-  const Frame frame = frame_at(at, to_eye);
-  const Vec3 eye = to_local(frame, to_eye);
-  if (!(eye.z > 0)) return {};
-  const float alpha = std::max(surface.roughness * surface.roughness, least_alpha), alpha2 = alpha * alpha;
-  // D G1 / (4 cos) of visible normals, of what gloss() turns up from below, too.
-  const float masked = 2 * (eye.z + std::sqrt(alpha2 + (1 - alpha2) * eye.z * eye.z));
   Rgb sum;
-  for (const Vec3& from : {direction, direction - 2 * above * at.geometric_normal}) {
-    const Vec3 facet = normalize_or(eye + to_local(frame, from), Vec3(0));
-    if (!(facet.z > 0)) continue;
-    const float wide = facet.x * facet.x + facet.y * facet.y + alpha2 * facet.z * facet.z;
-    sum += mirrored_by(surface, glm::dot(eye, facet)) * (alpha2 / (kPi * wide * wide * masked));
-  }
+  for_each_facet(surface, to_eye, at, direction, least_alpha,
+                 [&](float density, float cosine) { sum += density * mirrored_by(surface, cosine); });
+  return sum;
+}
+
+float gloss_density(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
+                    float least_alpha) {
+  float sum = 0;
+  for_each_facet(surface, to_eye, at, direction, least_alpha, [&](float density, float) { sum += density; });
   return sum;
 }
 

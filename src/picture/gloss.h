@@ -34,5 +34,8 @@ Gloss gloss(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, Ve
 /// @param least_alpha  of the lobe's width (roughness squared): a lamp that is a point is as wide
 Rgb gloss_of(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
              float least_alpha);
+/// Density per steradian with which gloss() takes that direction.
+float gloss_density(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Vec3& direction,
+                    float least_alpha);
 
 }  // namespace sconce

@@ -3,11 +3,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "picture/glint.h"
 #include "picture/gloss.h"
+#include "picture/highlight.h"
 #include "picture/seen.h"
 
 namespace sconce {
@@ -15,8 +17,8 @@ namespace sconce {
 namespace {
 
 constexpr int kTile = 32;  // pixels
-constexpr uint32_t kLobeStream = 0x6c6f6265u, kGlintStream = 0x676c696eu;
-// Where a ray meets a lobe wider than a pixel, several rays follow it: a lamp in it is small and bright.
+constexpr uint32_t kLobeStream = 0x6c6f6265u, kGlintStream = 0x676c696eu, kPickStream = 0x7069636bu;
+// Where a ray meets a lobe wider than a pixel, several rays follow it, and lamps in it are sought.
 constexpr float kSharp = 0.05f;  // roughness
 constexpr uint32_t kLobeRays = 4;
 constexpr int kMostPanes = 64;  // in a row; those behind are opaque
@@ -77,15 +79,23 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
   if (met == sight.reflections) return surface.base_color * light * kInvPi + through;
 
   at.shading_normal += mapped();
-  const uint32_t rays = met == 0 && surface.roughness > kSharp ? kLobeRays : 1;
+  const bool wide = surface.roughness > kSharp;
+  std::optional<const Highlights> highlights;
+  if (wide && !meshes_.empty())
+    highlights.emplace(*lamps_, meshes_, sight.mix.spec, surface, -ray.direction, at);
+  const uint32_t rays = met == 0 && wide ? kLobeRays : 1;
   Rgb sum;
   for (uint32_t i = 0; i < rays; ++i) {
     Sight onwards = sight;
     onwards.index = sight.index * rays + i;
-    const Vec2 u = sobol_pair(onwards.index, static_cast<uint32_t>(met), sight.stream);
+    onwards.highlights = highlights ? &*highlights : nullptr;
+    const auto dimension = static_cast<uint32_t>(met);
+    const Vec2 u = sobol_pair(onwards.index, dimension, sight.stream);
     const Gloss part = gloss(surface, -ray.direction, at, u);
     const Vec3 start = offset_origin(at.position, at.geometric_normal, part.direction);
     sum += part.diffuse * diffuse + part.mirrored * look({start, part.direction}, onwards, met + 1).radiance;
+    if (highlights)
+      sum += highlights->pick(tracer_, sobol_pair(onwards.index, dimension, sight.stream ^ kPickStream));
     sum += glints(surface, -ray.direction, at, onwards);
   }
   return sum / static_cast<float>(rays);
@@ -115,7 +125,8 @@ View::Seen View::look(const Ray& ray, const Sight& sight, int met, int panes) co
   }
   for_each_shine(scene(), world(), ray, hit, surface.emission, [&](Id<LightGroup> group, const Rgb& shine) {
     seen.emitter = seen.emitter || !shine.is_black();
-    seen.radiance += weight_of(sight.mix.spec, group) * shine;
+    const float share = hit && sight.highlights != nullptr ? sight.highlights->share(ray, hit) : 1;
+    seen.radiance += share * weight_of(sight.mix.spec, group) * shine;
   });
   return seen;
 }

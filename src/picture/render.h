@@ -16,6 +16,8 @@
 
 namespace sconce {
 
+class Highlights;
+
 /// Light beside the lightmap's: illuminance at a point that sample number `sample` of pixel (x, y) sees, lux;
 /// its shading normal is the normal map's where components are given. Thread-safe.
 using AddedLight = std::function<Rgb(const SurfacePoint& at, int x, int y, uint32_t sample)>;
@@ -95,7 +97,8 @@ class View {
     std::function<Rgb(const SurfacePoint&)> added;
     const AddedGlints& glints;
     int reflections;
-    uint32_t stream, index;  ///< random numbers of the mirrors' lobes
+    uint32_t stream, index;                  ///< random numbers of the mirrors' lobes
+    const Highlights* highlights = nullptr;  ///< of the surface whose lobe the ray is of
   };
   /// @param met    mirrors behind this ray
   /// @param panes  on the way since the last of them
@@ -111,8 +114,9 @@ class View {
   const Package* package_;
   ShownScene shown_;
   Tracer tracer_;
-  std::unique_ptr<const Lamps> lamps_;  ///< null where none is a light field
-  std::vector<std::size_t> near_;       ///< those that are
+  std::unique_ptr<const Lamps> lamps_;  ///< null where none is an emissive mesh or a light field
+  std::vector<std::size_t> near_;       ///< those that are light fields
+  std::vector<uint32_t> meshes_;        ///< those that are emissive meshes
 };
 
 }  // namespace sconce

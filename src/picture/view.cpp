@@ -3,16 +3,19 @@
 #include <algorithm>
 
 #include "picture/glint.h"
+#include "picture/highlight.h"
 #include "picture/render.h"
 
 namespace sconce {
 
 View::View(const Package& package)
     : package_(&package), shown_(package), tracer_(shown_.scene, shown_.world) {
-  const auto& all = scene().luminaires;
-  if (std::any_of(all.begin(), all.end(), [](const Luminaire& l) { return l.field != nullptr; }))
-    lamps_ = std::make_unique<const Lamps>(scene(), world());
-  if (lamps_) near_ = near_lamps(*lamps_);
+  const auto any = [](const auto& all, const auto& is) { return std::any_of(all.begin(), all.end(), is); };
+  if (!any(scene().luminaires, [](const Luminaire& l) { return l.field != nullptr; }) &&
+      !any(scene().materials, [](const Material& m) { return m.emits(); }))
+    return;
+  lamps_ = std::make_unique<const Lamps>(scene(), world());
+  near_ = near_lamps(*lamps_), meshes_ = mesh_lamps(*lamps_);
 }
 
 bool View::sees_normal_maps() const {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture/highlight.h"
+
+#include <algorithm>
+
+#include "picture/gloss.h"
+#include "picture/seen.h"
+
+namespace sconce {
+
+std::vector<uint32_t> mesh_lamps(const Lamps& lamps) {
+  std::vector<uint32_t> out;
+  for (std::size_t i = 0; i < lamps.size(); ++i)
+    if (std::holds_alternative<MeshLamp>(lamps.all()[i].shape)) out.push_back(static_cast<uint32_t>(i));
+  return out;
+}
+
+Highlights::Highlights(const Lamps& lamps, const std::vector<uint32_t>& meshes, const MixSpec& mix,
+                       const Shade& surface, const Vec3& to_eye, const SurfacePoint& at)
+    : lamps_(&lamps), meshes_(&meshes), mix_(&mix), surface_(surface), to_eye_(to_eye), at_(at) {
+  std::vector<float> seen(lamps.size());
+  lamps.importances(at.position, at.geometric_normal, seen);
+  float sum = 0;
+  chance_.assign(lamps.size(), 0);
+  for (const uint32_t i : meshes) {
+    const Lamp& lamp = lamps.all()[i];
+    sum += chance_[i] = seen[i] * luminance(weight_of(mix, lamp.group) * lamp.flux);
+  }
+  if (!(sum > 0)) chance_.clear();
+  for (float& chance : chance_) chance /= sum;
+}
+
+Rgb Highlights::pick(const Tracer& tracer, Vec2 u) const {
+  if (chance_.empty()) return {};
+  uint32_t lamp = 0;
+  for (const uint32_t i : *meshes_) {
+    if (!(chance_[i] > 0)) continue;
+    lamp = i;
+    if (u.x < chance_[i]) break;
+    u.x -= chance_[i];
+  }
+  u.x = std::min(u.x / chance_[lamp], 0x1.fffffep-1f);  // uniform again
+
+  LightSample light;
+  if (!lamps_->sample(lamp, at_.position, u, light)) return {};
+  const Rgb mirrored = gloss_of(surface_, to_eye_, at_, light.direction, 0);
+  if (mirrored.is_black()) return {};
+  const float density = chance_[lamp] * light.pdf + gloss_density(surface_, to_eye_, at_, light.direction, 0);
+  const Vec3 start = offset_origin(at_.position, at_.geometric_normal, at_.geometric_normal);
+  // The lamp's own surface must not count as an occluder.
+  const float end = light.distance * (1 - 1e-4f) - 4 * glm::distance(start, at_.position);
+  const Rgb passed = end > 0 ? tracer.transmittance({start, light.direction, end}) : Rgb(1.0f);
+  return weight_of(*mix_, lamps_->all()[lamp].group) * mirrored * light.radiance * passed / density;
+}
+
+float Highlights::share(const Ray& ray, const Hit& hit) const {
+  const int lamp = lamps_->lamp_of(hit.triangle);
+  if (chance_.empty() || lamp < 0) return 1;
+  const float picked = chance_[static_cast<std::size_t>(lamp)] *
+                       lamps_->pdf(hit.triangle, hit.barycentric, hit.distance, ray.direction);
+  const float met = gloss_density(surface_, to_eye_, at_, ray.direction, 0);
+  return met > 0 ? met / (met + picked) : 1;
+}
+
+}  // namespace sconce
