@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   std::vector<Rgb> indirect(op.gather.rows);
   Errors by_kind[2];
   for (std::size_t g = 0; g < lamps.size(); ++g) {
-    const MovedLamps moved(view.scene(), view.world(), view.tracer(), {lamps[g]}, {});
+    const MovedLamps moved(view.scene(), view.world(), view.tracer(), {{lamps[g]}}, {});
     const auto start = std::chrono::steady_clock::now();
     std::vector<Rgbx> light = light_cloud(op, moved);
     const double cloud = milliseconds_since(start);

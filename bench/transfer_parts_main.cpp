@@ -40,7 +40,7 @@ class Parts {
   Lights direct(const Operator& op) const {
     Lights out;
     for (const Light& lamp : lamps_)
-      out.push_back(light_cloud(op, MovedLamps(view_.scene(), view_.world(), view_.tracer(), {lamp}, {})));
+      out.push_back(light_cloud(op, MovedLamps(view_.scene(), view_.world(), view_.tracer(), {{lamp}}, {})));
     return out;
   }
   /// And what bounces add, by rows of the samples' own rays.

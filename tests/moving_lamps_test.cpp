@@ -5,48 +5,13 @@
 
 #include "core/hash.h"
 #include "core/test_data.h"
-#include "image/io.h"
-#include "package/glb.h"
-#include "process.h"
+#include "relight_run.h"
 #include "scene/lens.h"
-#include "small_scenes.h"
 
 namespace fs = std::filesystem;
 
 namespace sconce {
 namespace {
-
-using Names = std::vector<std::string>;
-
-class Relight : public testing::Test {
- protected:
-  TemporaryFolder folder;
-  const std::string package = (folder / "room.sconce").string();
-
-  static test::Outcome run(Names words, const Names& more = {}) {
-    words.insert(words.end(), more.begin(), more.end());
-    return test::run_sconce(words);
-  }
-  void expect_done(const test::Outcome& outcome) { ASSERT_EQ(outcome.code, 0) << outcome.err; }
-  std::string file(const std::string& name) const { return (folder / name).string(); }
-  void make_room() {
-    write_file(folder / "room.glb", write_glb(test::two_lamp_room(), "test"));
-    expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "256"}));
-    expect_done(run({"transfer", package, "--gather", "1024"}));
-  }
-  Names picture(const std::string& verb, const std::string& output, const Names& more) const {
-    Names words{verb,       package,  "--eye", "0,1.2,0.9", "--target",
-                "0,0.6,-1", "--size", "96x64", "-o",        file(output)};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  double mean(const std::string& name) const {
-    const Image image = read_exr(file(name));
-    double sum = 0;
-    for (const float v : image.data) sum += static_cast<double>(v);
-    return sum / static_cast<double>(image.data.size());
-  }
-};
 
 TEST_F(Relight, AGroupByTransferIsItsLayer) {
   make_room();

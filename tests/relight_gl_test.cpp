@@ -30,7 +30,8 @@ class DirectLight : public testing::Test {
 
   Image by_rays(const std::vector<Light>& lights, const std::vector<MovedGroup>& groups = {},
                 int samples = 1) {
-    lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(), lights, groups);
+    lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(), MoreLights{lights},
+                                          groups);
     params_.samples = samples;
     return view_.render(camera_, mix_, black_, params_, {}, nullptr,
                         [&](const SurfacePoint& at, int x, int y, uint32_t sample) {
@@ -129,7 +130,7 @@ TEST_F(DirectLight, PointsSpotsAndSunsOutsideTheEdgesOfShadows) {
         "spot,position=0.35,1.9,-0.35,target=0.3,0,0,lumens=400,outer=85",
         "sun,direction=0.3,-0.2,-1,intensity=500"}) {
     SCOPED_TRACE(text);
-    expect_alike(parse_light(text, "test"));
+    expect_alike(parse_lights(text, "test").lights.at(0));
   }
 }
 
@@ -156,7 +157,7 @@ gpu::LampShader own(const std::string& text, const Vec3& position = Vec3(0, 1.5f
 // away.
 TEST_F(DirectLight, AnUberLightIsAPointAndLess) {
   const Vec3 at(0, 1.5f, 0);
-  Light point = parse_light("point,position=0,1.5,0,intensity=100", "test");
+  Light point = parse_lights("point,position=0,1.5,0,intensity=100", "test").lights.at(0);
   gpu::LampShader uber = own(read_file(example("uber.glsl")), at);
   uber.frame = point.frame;  // downwards
   uber.intensity = Rgb(100);
@@ -259,7 +260,7 @@ TEST_F(DirectLight, NoNumberIsCountedAndPaintedOver) {
 // The operator of the room's lightmap. Slots differ where edges of shadows cross them, and nowhere else.
 TEST_F(DirectLight, OnTheCloudAndThroughTheOperator) {
   const Operator op = open_operator(package_.path() / "operators" / "lightmap.bin");
-  by_rays({parse_light("point,position=-0.3,1.5,0.2,lumens=400", "test")});
+  by_rays({parse_lights("point,position=-0.3,1.5,0.2,lumens=400", "test").lights.at(0)});
   const std::vector<Rgbx> rays = light_cloud(op, *lamps_);
 
   const gpu::View view(context_, view_.shown());

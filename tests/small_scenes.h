@@ -7,6 +7,10 @@
 
 namespace sconce::test {
 
+/// IES: 300 cd down, 100 cd at 60 degrees, nothing beyond.
+inline const char* const kPhotometricLamp =
+    "IESNA:LM-63-2002\n[TEST] x\nTILT=NONE\n1 600 1 2 1 1 2 0 0 0\n1 1 10\n0 60\n0\n300 100\n";
+
 /// A 2 m box, one red wall, a block on the floor, two lamps under the ceiling in groups `left` and `right`.
 inline Scene two_lamp_room() {
   Scene scene;
@@ -34,6 +38,13 @@ inline Scene two_lamp_room() {
   camera.yfov = 1.3f;
   camera.aspect = 1;
   scene.cameras.push_back(camera);
+  return scene;
+}
+
+/// The same without its ceiling.
+inline Scene two_lamp_court() {
+  Scene scene = two_lamp_room();
+  scene.instances.erase(scene.instances.begin() + 1);
   return scene;
 }
 

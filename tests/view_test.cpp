@@ -173,6 +173,30 @@ TEST_F(ViewTest, LampsBecomeOthersAndShadersAreReadAgain) {
   EXPECT_EQ(read_file(path("own.txt")).find('#'), std::string::npos);
 }
 
+// Kinds of lamps by words and by a dropped photometric file; `relight --kind` says how each must look.
+TEST_F(ViewTest, LampsBecomeMeasuredOnesAndSuns) {
+  bake_movable(test::two_lamp_court());
+  folder_.write("lamp.ies", test::kPhotometricLamp);
+  const std::string sun = "sun,direction=0.2,-1,-0.1,intensity=90,kelvin=5500";
+  const auto outcome =
+      view("ev100 3\nset right=off left=50%\nsettle\nlamp \"lamp left\" 0,1.4,0.2\ndrop " + path("lamp.ies") +
+           "\nsettle\npicture " + path("measured.png") + "\nscreenshot " + path("all.png") +
+           "\nkind \"lamp left\" " + sun + "\nsettle\npicture " + path("sun.png") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto expect_relit = [&](const std::string& picture, const std::string& kind) {
+    const Image8 seen = png(picture);
+    const auto relit = test::run_sconce(
+        {"relight", path("x.sconce"), "right=off", "left=50%", "--move", "lamp left=0,1.4,0.2", "--kind",
+         "lamp left=" + kind, "--ev100", "3", "--device", "cpu", "--size",
+         std::to_string(seen.width) + "x" + std::to_string(seen.height), "-o", path("relit.png")});
+    ASSERT_EQ(relit.code, 0) << relit.err;
+    EXPECT_LE(mean_difference(seen, png("relit.png")), 2) << kind;
+  };
+  expect_relit("measured.png", "luminaire,file=" + path("lamp.ies"));
+  expect_relit("sun.png", sun);
+  EXPECT_GT(mean_difference(png("measured.png"), png("sun.png")), 4);
+}
+
 TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
   bake();
   folder_.write("mood.toml", "others = \"off\"\n[mix]\nmirror = \"2700K\"\n");

@@ -26,8 +26,8 @@ class ViewTest : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   /// Two lamps and an operator.
-  void bake_movable() {
-    folder_.write("x.glb", write_glb(test::two_lamp_room(), "test"));
+  void bake_movable(const Scene& scene = test::two_lamp_room()) {
+    folder_.write("x.glb", write_glb(scene, "test"));
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
           {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {

@@ -7,14 +7,13 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "import/lights.h"
 #include "mix_options.h"
 #include "picture_options.h"
 #include "picture_output.h"
 #include "relight/package_operator.h"
 #include "relight/texel_light.h"
+#include "relight_lamps.h"
 #include "relight_stage.h"
-#include "shader_lamp.h"
 #include "tone/apply.h"
 
 namespace fs = std::filesystem;
@@ -22,74 +21,6 @@ namespace fs = std::filesystem;
 namespace sconce::app {
 
 namespace {
-
-/// A lamp's text; what a file would call an error is here a wrong use. @throws UsageError
-Light light_option(const std::string& text) {
-  try {
-    return parse_light(text, "--light " + text);
-  } catch (const Error& e) {
-    throw UsageError({}, e.what());
-  }
-}
-
-struct Move {
-  std::string name;
-  LampPlace to;
-};
-
-/// `LAMP=X,Y,Z`, and `,target=X,Y,Z` after it. @throws UsageError
-Move parse_move(const std::string& text) {
-  constexpr std::string_view kTarget = ",target=";
-  const std::size_t target = text.rfind(kTarget);
-  const std::string place = text.substr(0, target);
-  const std::size_t equals = place.rfind('=');
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError("option '--move'", "'" + text + "' is not understood", "LAMP=X,Y,Z[,target=X,Y,Z]");
-  Move move{place.substr(0, equals), {parse_point(place.substr(equals + 1), "--move"), {}}};
-  if (target != std::string::npos)
-    move.to.target = parse_point(text.substr(target + kTarget.size()), "--move");
-  return move;
-}
-
-/// What `--light`, `--lights` and `--move` ask for.
-struct Wanted {
-  std::vector<Light> lights;
-  std::vector<gpu::LampShader> shaders;
-  std::vector<std::string> groups;
-  std::vector<Move> moves;
-};
-
-Wanted find_wanted(const std::vector<std::string>& texts, const std::string& file,
-                   const std::vector<std::string>& moves, const Progress& progress) {
-  constexpr std::string_view kGroup = "group,name=";
-  Wanted wanted;
-  for (const std::string& text : texts) {
-    if (text.starts_with(kGroup))
-      wanted.groups.push_back(text.substr(kGroup.size()));
-    else if (text.starts_with(kShaderLamp))
-      wanted.shaders.push_back(parse_shader_lamp(text));
-    else
-      wanted.lights.push_back(light_option(text));
-  }
-  if (!file.empty())
-    for (Light& light : read_lights(file, progress)) wanted.lights.push_back(std::move(light));
-  for (const std::string& text : moves) wanted.moves.push_back(parse_move(text));
-  if (wanted.lights.empty() && wanted.groups.empty() && wanted.moves.empty() && wanted.shaders.empty())
-    throw UsageError({}, "no lamp to move: --light, --lights or --move",
-                     "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
-  return wanted;
-}
-
-/// The group of that name. @throws UsageError
-Id<LightGroup> find_group(const Manifest& m, const std::string& name) {
-  std::vector<std::string> known;
-  for (const GroupInfo& group : m.groups) known.push_back(group.name);
-  const auto it = std::find(known.begin(), known.end(), name);
-  if (it == known.end())
-    throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
-                     join(known, ", "));
-  return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
-}
 
 struct Relit {
   Image linear;
@@ -126,8 +57,8 @@ void find_view(const Operator& op, const View& view, const PictureOptions& pictu
 int run_relight(int argc, const char* const* argv) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  std::string input, output, file;
-  std::vector<std::string> texts, moves;
+  std::string input, output;
+  LampWords words;
   bool pixels = false;
   double cull = 0;
   MixOptions settings;
@@ -141,18 +72,7 @@ int run_relight(int argc, const char* const* argv) {
        "sconce relight kitchen.sconce --move pendant=1,1.9,1 --others off", "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
-  options.option(
-      "--light", &texts,
-      "a lamp: point, spot or sun, then keys as in a side file, for example "
-      "spot,position=1,2,0,target=0,0,0,lumens=800; or group,name=G: the group by transfer instead of "
-      "by its layer; or shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; "
-      "may "
-      "be given several times");
-  options.option("--lights", &file, "TOML file with [[light]] tables");
-  options.option(
-      "--move", &moves,
-      "LAMP=X,Y,Z[,target=X,Y,Z]: a lamp or a whole group of the package leaves its layer and shines "
-      "from there, turned to the target; may be given several times");
+  words.declare(options);
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option(
@@ -192,32 +112,27 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    const Wanted wanted = find_wanted(texts, file, moves, progress);
+    const WantedLamps wanted = words.parse(progress);
     const Package package = settings.open(input);
     const Operator op = find_operator(package, pixels ? picture.camera : "");
     const View view(package);
     relit.groups = package.manifest().groups;
     relit.mix = settings.make(preset, relit.groups, progress);
     MixSpec lightmap = relit.mix;
-    std::vector<Id<LightGroup>> left;
-    for (const std::string& name : wanted.groups) left.push_back(find_group(package.manifest(), name));
-    const Lamps own(view.scene(), view.world());
-    std::vector<LampMove> moved;
-    for (const Move& move : wanted.moves)
-      moved.push_back(find_move(view.scene(), own, move.name, move.to, "option '--move'"));
     const bool texels = op.kind == OperatorReceivers::texels;
-    const std::vector<MovedGroup> groups = take_lamps(own, left, moved, !texels, lightmap);
+    const Lamps own(view.scene(), view.world());
+    const RelitLamps lit = place_lamps(wanted, view.scene(), own, !texels, lightmap, progress);
     find_view(op, view, picture, progress, relit);
     progress.check();
-    const auto lamps_at = [&](const std::vector<Light>& lights, std::span<const MovedGroup> of,
+    const auto lamps_at = [&](const MoreLights& more, std::span<const MovedGroup> of,
                               std::span<const LampMove> by) {
-      return MovedLamps(view.scene(), view.world(), view.tracer(), lights, of, by);
+      return MovedLamps(view.scene(), view.world(), view.tracer(), more, of, by);
     };
-    const MovedLamps lamps = lamps_at(wanted.lights, groups, moved);
-    RelightJob job{package, view, op, lamps, wanted.shaders, nullptr, static_cast<float>(cull)};
+    const MovedLamps lamps = lamps_at(lit.more, lit.shining, lit.moves);
+    RelightJob job{package, view, op, lamps, lit.shaders, nullptr, static_cast<float>(cull)};
     std::vector<Image> pages = mix_pages(package, lightmap), components;
     if (view.sees_normal_maps()) components = mix_components(package, lightmap);
-    if (const std::vector<MovedGroup> parts = in_part(groups); !parts.empty()) {
+    if (const std::vector<MovedGroup> parts = in_part(lit.left); !parts.empty()) {
       job.bounces = std::make_shared<FoldedBounces>(op);
       take_share(package_atlas(package, view), op,
                  lightmap_share(package, view, op, *job.bounces, lamps_at({}, parts, {}), progress), pages);
@@ -228,7 +143,7 @@ int run_relight(int argc, const char* const* argv) {
     if (cull > 0) relit.culled = stage->culled();
     if (texels) stage->add_to(pages);
     relit.linear = stage->draw(relit.camera, relit.mix, pages, components, relit.params, progress);
-    if (exposed && texels && wanted.shaders.empty()) {
+    if (exposed && texels && lit.shaders.empty()) {
       add_to_pages(package, view, op, direct_at_middles(op, lamps), pages);
       relit.metering = meter(package, view.scene(), relit.mix, pages);
     } else if (exposed) {

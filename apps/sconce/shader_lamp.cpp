@@ -40,9 +40,8 @@ gpu::LampUniform uniform(const std::string& name, const std::vector<std::string>
 
 }  // namespace
 
-gpu::LampShader parse_shader_lamp(const std::string& text) {
+gpu::LampShader parse_shader_lamp(const std::string& text, const std::string& where) {
   constexpr std::array kPlace{"name", "position", "target", "direction", "intensity", "color", "kelvin"};
-  const std::string where = "--light " + text;
   gpu::LampShader lamp;
   LightWords place{"point", {}};
   bool strong = false, placed = false;

@@ -8,11 +8,9 @@
 
 namespace sconce::app {
 
-inline constexpr std::string_view kShaderLamp = "shader,";
-
 /// `shader,file=F.glsl,position=X,Y,Z,target=X,Y,Z,intensity=N,kelvin=K,shadow=cube,UNIFORM=VALUE,...`: place
 /// and colour in the words of [[light]], what is left are uniforms of the shader.
 /// @throws UsageError naming the key; Error when the file cannot be read
-gpu::LampShader parse_shader_lamp(const std::string& text);
+gpu::LampShader parse_shader_lamp(const std::string& text, const std::string& where);
 
 }  // namespace sconce::app

@@ -6,10 +6,9 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "import/lights.h"
+#include "lamp_kinds.h"
 #include "live_bake.h"
 #include "picture_options.h"
-#include "shader_lamp.h"
 
 namespace sconce::app {
 
@@ -49,8 +48,12 @@ int run_view(int argc, const char* const* argv) {
   if (!groups_from.empty() && lower(std::filesystem::path(input).extension().string()) != ".exr")
     throw UsageError("option '--groups-from'", input + " is no picture", "an OpenEXR picture");
   request.bake = live_bake;
-  request.parse_light = [](const std::string& words) { return parse_light(words, words); };
-  request.parse_shader = parse_shader_lamp;
+  for (const LampKind& kind : lamp_kinds())
+    if (!kind.words.empty()) request.kinds.emplace_back(kind.name, kind.words);
+  request.kind_of_file = kind_of_file;
+  request.become = [](const Lamp& lamp, const LampPlace& at, const std::string& words) {
+    return become(lamp, at, words, words);
+  };
   const ThreadLimit threads(options.threads);
   viewer::show_window(request);
   return kDone;

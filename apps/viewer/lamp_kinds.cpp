@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lamp becomes one of another kind: a point, a spot, or a shader that is watched while it is edited.
+// A lamp becomes one of another kind; files that it is made of are watched while they are edited.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,41 +15,15 @@ namespace sconce::viewer {
 
 namespace {
 
-constexpr std::string_view kShader = "shader,";
 constexpr double kLookEvery = 0.25;  // seconds
 
-bool says(const std::string& words, std::string_view key) {
-  return words.find("," + std::string(key) + "=") != std::string::npos;
-}
-
-/// The file that a shader's words name.
+/// The file that the words of a kind name.
 std::string file_of(const std::string& kind) {
   constexpr std::string_view kFile = ",file=";
   const std::size_t at = kind.find(kFile);
-  if (!kind.starts_with(kShader) || at == std::string::npos) return {};
+  if (at == std::string::npos) return {};
   const std::size_t begin = at + kFile.size();
   return kind.substr(begin, kind.find(',', begin) - begin);
-}
-
-/// Words with a place, and a direction and strength where they say none: downwards, the lamp's own flux.
-std::string completed(const Lamp& lamp, const MovedLamp& state) {
-  // Not within its own body.
-  const Vec3 at = state.at + 0.01f * axis_of(lamp).value_or(Vec3(0));
-  std::string words = state.kind + fmt::format(",position={:.6f},{:.6f},{:.6f}", at.x, at.y, at.z);
-  if (!state.kind.starts_with("point") && !says(words, "target") && !says(words, "direction"))
-    words += ",direction=0,-1,0";
-  const double lumens = std::max(static_cast<double>(luminance(lamp.flux)), 1e-6);
-  if (state.kind.starts_with(kShader)) {
-    if (!says(words, "intensity")) words += fmt::format(",intensity={:.6g}", lumens / (4 * double{kPi}));
-  } else if (!says(words, "lumens") && !says(words, "intensity")) {
-    words += fmt::format(",lumens={:.6g}", lumens);
-  }
-  return words;
-}
-
-Rgb own_color(const Lamp& lamp, const std::string& words) {
-  if (says(words, "color") || says(words, "kelvin") || !(luminance(lamp.flux) > 0)) return Rgb(1);
-  return lamp.flux / luminance(lamp.flux);
 }
 
 /// Its light on texels, direct by shadow maps, lux.
@@ -88,22 +62,16 @@ void Viewer::set_kind(std::size_t lamp, const std::string& kind) {
 
 OtherLamp Viewer::other_lamp(std::size_t lamp, const MovedLamp& state) {
   const Movable& movable = state_.lamps.mover->movable();
-  const Lamp& own = movable.lamps.all()[lamp];
-  const std::string words = completed(own, state);
-  const Rgb color = own_color(own, words);
-  if (!state.kind.starts_with(kShader)) {
-    Light light = request_.parse_light(words);
-    light.intensity = light.intensity * color;
-    return light;
+  auto made = request_.become(movable.lamps.all()[lamp], {state.at, {}}, state.kind);
+  if (const std::string file = file_of(state.kind); !file.empty()) {
+    std::error_code ignored;
+    state_.lamps.files[file] = fs::last_write_time(file, ignored);
   }
-  std::error_code ignored;
-  state_.lamps.files[file_of(state.kind)] = fs::last_write_time(file_of(state.kind), ignored);
-  gpu::LampShader shader = request_.parse_shader(words);
-  shader.intensity = shader.intensity * color;
-  return light_of(window_.context(), state_.canvas->geometry(), movable, shader);
+  if (auto* lights = std::get_if<MoreLights>(&made)) return std::move(*lights);
+  return light_of(window_.context(), state_.canvas->geometry(), movable, std::get<gpu::LampShader>(made));
 }
 
-void Viewer::watch_shaders() {
+void Viewer::watch_lamp_files() {
   MovingLamps& lamps = state_.lamps;
   if (ImGui::GetTime() < lamps.looked + kLookEvery) return;
   lamps.looked = ImGui::GetTime();
@@ -128,18 +96,18 @@ void Viewer::lamp_section() {
     const auto found = moved.find(lamp);
     const std::string kind = found != moved.end() ? found->second.kind : "";
     ImGui::TextUnformatted(lamps.mover->movable().lamps.all()[lamp].name.c_str());
-    constexpr std::pair<const char*, const char*> kKinds[] = {
-        {"own", ""}, {"point", "point"}, {"spot", "spot,inner=20,outer=35"}};
-    for (const auto& [label, words] : kKinds) {
-      if (words != kKinds[0].second) ImGui::SameLine();
-      if (toggle(label, label, kind == words, palette::kAccent, px(64)) && kind != words)
+    const auto choice = [&](const std::string& name, const std::string& words, bool lit) {
+      if (toggle(name.c_str(), name.c_str(), lit, palette::kAccent, px(64)) && !lit)
         attempt([&] { set_kind(lamp, words); });
-    }
+    };
+    choice("own", "", kind.empty());
+    const std::string first = kind.substr(0, kind.find(','));
+    for (const auto& [name, words] : request_.kinds) ImGui::SameLine(), choice(name, words, name == first);
     char text[512] = {};
     const std::string shown = lamps.words.empty() ? kind : lamps.words;
     shown.copy(text, sizeof text - 1);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##kind", "spot,outer=40   shader,file=barn.glsl", text, sizeof text,
+    if (ImGui::InputTextWithHint("##kind", "spot,outer=40   luminaire,file=lamp.ldt", text, sizeof text,
                                  ImGuiInputTextFlags_EnterReturnsTrue)) {
       lamps.words.clear();
       attempt([&] { set_kind(lamp, text); });
@@ -148,9 +116,9 @@ void Viewer::lamp_section() {
     } else {
       lamps.words.clear();
     }
-    tip("the words of sconce relight --light without a place; a light shader is read again when its file "
-        "changes, and "
-        "may be dropped");
+    tip("the words of sconce relight --kind; drop an IES or EULUMDAT file, or a light shader (.glsl), to "
+        "make "
+        "this lamp of it; files are read again when they change");
   } else {
     ImGui::TextDisabled("Click a lamp's ring to move it, or to make another one of it.");
   }

@@ -51,7 +51,7 @@ void Viewer::light_lamps() {
     if (fine->inside)
       note("lamp '" + mover->movable().lamps.all()[fine->task.lamp].name + "' stands inside something");
   }
-  watch_shaders();
+  watch_lamp_files();
   mover->follow(state_.session->mood().moved);
   if (const std::string problem = mover->problem(); problem != state_.lamps.problem) {
     state_.lamps.problem = problem;

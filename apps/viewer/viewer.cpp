@@ -104,10 +104,9 @@ void Viewer::frame(double wait) {
 }
 
 void Viewer::drop(const fs::path& file) {
-  if (ends_with_any(file, {".glsl"})) {
-    if (!state_.lamps.chosen)
-      throw Error(file.string(), "is a light shader: choose a lamp that is to become one");
-    return set_kind(*state_.lamps.chosen, "shader,file=" + file.string());
+  if (const std::string kind = request_.kind_of_file(file.string()); !kind.empty()) {
+    if (!state_.lamps.chosen) throw Error(file.string(), "is a lamp: choose one that is to become it");
+    return set_kind(*state_.lamps.chosen, kind);
   }
   if (ends_with_any(file, {".toml"}) && state_.session)
     return (void)state_.session->perform(

@@ -37,10 +37,14 @@ struct ViewRequest {
   std::function<void(const std::filesystem::path& scene, const Progress&,
                      const std::function<void(std::filesystem::path)>& publish)>
       bake;
-  /// A lamp in the words of `sconce relight --light`. @throws Error
-  std::function<Light(const std::string& words)> parse_light;
-  /// A light shader in the same words, `shader,file=...`. @throws Error
-  std::function<gpu::LampShader(const std::string& words)> parse_shader;
+  /// Kinds that a lamp becomes by a click: name and words.
+  std::vector<std::pair<std::string, std::string>> kinds;
+  /// Words of the kind that a file makes, "" where it makes none; by its name.
+  std::function<std::string(const std::string& file)> kind_of_file;
+  /// What a lamp becomes, in the words of `sconce relight --kind`. @throws Error
+  std::function<std::variant<MoreLights, gpu::LampShader>(const Lamp&, const LampPlace&,
+                                                          const std::string& words)>
+      become;
 };
 
 /// The measuring plane that is in the picture, and what was measured.
@@ -158,8 +162,8 @@ class Viewer {
   void set_kind(std::size_t lamp, const std::string& kind);
   /// What it has become. @throws Error
   OtherLamp other_lamp(std::size_t lamp, const MovedLamp& state);
-  /// Light shaders whose files have changed are made anew.
-  void watch_shaders();
+  /// Lamps whose files have changed are made anew.
+  void watch_lamp_files();
   void lamp_section();
   /// @param at  the pointer, in the picture. @return whether it holds a lamp
   bool hold_lamp(Vec2 at);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/lights.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "import/side_parts.h"
@@ -18,10 +21,38 @@ SideNode value_of(const std::vector<std::string>& parts) {
   return array.size() == 1 ? array[0] : SideNode{std::move(array), 0};
 }
 
-Light only_light(const std::filesystem::path& where, const SideNode& node, const Progress& progress) {
-  Scene scene;
-  apply_light({where, scene, progress}, node);
-  return scene.lights.at(0);
+/// What [[luminaire]] calls what [[light]] says.
+constexpr std::pair<std::string_view, std::string_view> kMeasuredKeys[] = {{"file", "file"},
+                                                                           {"name", "name"},
+                                                                           {"position", "at"},
+                                                                           {"at", "at"},
+                                                                           {"target", "aim"},
+                                                                           {"aim", "aim"},
+                                                                           {"direction", "direction"},
+                                                                           {"roll", "roll"},
+                                                                           {"lumens", "flux"},
+                                                                           {"flux", "flux"},
+                                                                           {"kelvin", "cct"},
+                                                                           {"cct", "cct"},
+                                                                           {"color", "color"},
+                                                                           {"dim", "dim"},
+                                                                           {"exact_below", "exact_below"}};
+
+SideNode measured_table(const LightWords& words, const std::string& where) {
+  SideNode::Table table;
+  for (const auto& [key, value] : words.values) {
+    const auto* row = std::find_if(std::begin(kMeasuredKeys), std::end(kMeasuredKeys),
+                                   [&key = key](const auto& r) { return r.first == key; });
+    if (row == std::end(kMeasuredKeys))
+      throw UsageError(
+          where, "unknown key '" + key + "'",
+          "file, position, target, direction, roll, lumens, kelvin, color, dim, exact_below, name");
+    // As it stands; beside the caller, who is no file.
+    table.push_back({std::string(row->second),
+                     key == "file" ? SideNode{std::filesystem::absolute(join(value, ",")).string(), 0}
+                                   : value_of(value)});
+  }
+  return {std::move(table), 0};
 }
 
 }  // namespace
@@ -44,25 +75,37 @@ LightWords split_light(std::string_view text, const std::string& where) {
 Light parse_light(const LightWords& words, const std::string& where) {
   SideNode::Table table{{"type", SideNode{words.type, 0}}};
   for (const auto& [key, value] : words.values) table.push_back({key, value_of(value)});
-  return only_light(where, SideNode{std::move(table), 0}, {});
+  Scene scene;
+  apply_light({where, scene, {}}, SideNode{std::move(table), 0});
+  return scene.lights.at(0);
 }
 
-Light parse_light(std::string_view text, const std::string& where) {
-  return parse_light(split_light(text, where), where);
+MoreLights parse_lights(std::string_view text, const std::string& where, const Progress& progress) {
+  const LightWords words = split_light(text, where);
+  if (words.type != "luminaire") return {{parse_light(words, where)}};
+  Scene scene;
+  apply_luminaire({where, scene, progress}, measured_table(words, where));
+  return {std::move(scene.lights), std::move(scene.luminaires)};
 }
 
-std::vector<Light> read_lights(const std::filesystem::path& path, const Progress& progress) {
+MoreLights read_lights(const std::filesystem::path& path, const Progress& progress) {
   const SideNode root = parse_side_file(path);
-  const SideTable file(path.string(), "the file of lights", root, {"light"});
-  const SideNode* node = root.find("light");
-  if (node == nullptr) file.fail({}, "has no lights", "[[light]]");
-  std::vector<Light> lights;
-  if (const auto* array = std::get_if<SideNode::Array>(&node->value)) {
-    for (const SideNode& item : *array) lights.push_back(only_light(path, item, progress));
-  } else {
-    lights.push_back(only_light(path, *node, progress));
+  const SideTable file(path.string(), "the file of lights", root, {"light", "luminaire"});
+  Scene scene;
+  const SideContext context{path, scene, progress};
+  // Each alone: [[light]] with the name of another one would change that.
+  MoreLights all;
+  for (const SideNode* node : side_tables(root, "light")) {
+    scene.lights.clear();
+    apply_light(context, *node);
+    all.lights.push_back(scene.lights.at(0));
   }
-  return lights;
+  scene.lights.clear();
+  for (const SideNode* node : side_tables(root, "luminaire")) apply_luminaire(context, *node);
+  all.lights.insert(all.lights.end(), scene.lights.begin(), scene.lights.end());
+  all.luminaires = std::move(scene.luminaires);
+  if (all.lights.empty()) file.fail({}, "has no lights", "[[light]], [[luminaire]]");
+  return all;
 }
 
 }  // namespace sconce

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lamps that are told on a command line, in the words of a side file's [[light]].
+// Lamps that are told on a command line, in the words of a side file's [[light]] and [[luminaire]].
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "scene/scene.h"
+#include "scene/more_lights.h"
 
 namespace sconce {
 
@@ -25,9 +25,13 @@ LightWords split_light(std::string_view text, const std::string& where);
 
 /// Keys are those of [[light]]. @throws UsageError or Error naming `where` and the key
 Light parse_light(const LightWords& words, const std::string& where);
-Light parse_light(std::string_view text, const std::string& where);
 
-/// The [[light]] tables of a TOML file that has nothing else. @throws Error with file:line
-std::vector<Light> read_lights(const std::filesystem::path& path, const Progress& progress = {});
+/// Such a lamp, or `luminaire,file=lamp.ldt,position=0,2.8,0`: a measured one, its keys those of
+/// [[luminaire]] but for rows of them, or as [[light]] calls them (position, target, lumens, kelvin).
+/// @throws UsageError or Error naming `where` and the key
+MoreLights parse_lights(std::string_view text, const std::string& where, const Progress& progress = {});
+
+/// The [[light]] and [[luminaire]] tables of a TOML file that has nothing else. @throws Error with file:line
+MoreLights read_lights(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace sconce

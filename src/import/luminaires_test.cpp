@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured lamps by side file and by glTF: where they shine and how strong.
 #include "core/kelvin.h"
+#include "import/lights.h"
 #include "import/test_files.h"
 #include "import/uri.h"
 #include "photometry/light_field_file.h"
@@ -183,6 +184,42 @@ exact_below = 0.02
   room.folder.write("lamp.exr", "no picture");
   EXPECT_NE(room.error("", "[[luminaire]]\nfile = \"lamp.exr\"\nat = [0,0,0]\n").find("room.toml:2"),
             std::string::npos);
+}
+
+// A command line's words are a side file's, in its own or in [[light]]'s terms.
+TEST(Luminaires, WordsAreTables) {
+  Room room;
+  const Scene scene = room.with("", R"(
+[[luminaire]]
+file = "lamp.ies"
+at = [0, 2, 0]
+aim = [1, 0, 0]
+roll = 30
+flux = 500
+cct = 3000
+)");
+  const std::string file = (room.folder / "lamp.ies").string();
+  for (const std::string words : {"position=0,2,0,target=1,0,0,roll=30,lumens=500,kelvin=3000",
+                                  "at=0,2,0,aim=1,0,0,roll=30,flux=500,cct=3000"}) {
+    const MoreLights more = parse_lights("luminaire,file=" + file + "," + words, "test");
+    ASSERT_EQ(more.lights.size(), 1u);
+    EXPECT_EQ(more.lights[0].frame, scene.lights.at(0).frame);
+    EXPECT_EQ(more.lights[0].intensity, scene.lights.at(0).intensity);
+    EXPECT_EQ(more.luminaires.at(0).photometry.candela, scene.luminaires.at(0).photometry.candela);
+  }
+  EXPECT_NE(error_of([&] {
+              parse_lights("luminaire,file=" + file + ",at=0,2,0,count=2,2", "test");
+            }).find("unknown key 'count'"),
+            std::string::npos);
+
+  const auto lights = room.folder.write("lights.toml",
+                                        "[[luminaire]]\nfile = \"lamp.ies\"\nat = [0,2,0]\n\n"
+                                        "[[light]]\ntype = \"sun\"\nintensity = 3\n\n"
+                                        "[[luminaire]]\nfile = \"lamp.ies\"\nat = [1,2,0]\nflux = 700\n");
+  const MoreLights all = read_lights(lights);
+  ASSERT_EQ(all.lights.size(), 3u);
+  EXPECT_TRUE(std::holds_alternative<SunLight>(all.lights[0].shape));
+  EXPECT_EQ(std::get<LuminaireLight>(all.lights[2].shape).luminaire.value, 1u);
 }
 
 TEST(Luminaires, BadInput) {

@@ -44,28 +44,36 @@ std::optional<Vec3> axis_of(const Lamp& lamp) {
   return std::nullopt;
 }
 
-LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,
-                   const std::string& option) {
+LampMove find_lamps(const Scene& scene, const Lamps& lamps, const std::string& name,
+                    const std::string& option) {
   LampMove move;
   std::vector<std::string> known;
-  Vec3 sum(0);
-  std::optional<Vec3> axis;
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps.all()[i];
     const std::string group = lamp.group.valid() ? scene[lamp.group].name : std::string();
     for (const std::string& word : {lamp.name, group})
       if (!word.empty() && !has(known, word)) known.push_back(word);
     if (name != lamp.name && name != group) continue;
-    const auto place = place_of(lamp);
-    if (!place) throw UsageError(option, "'" + name + "' shines from everywhere", "a lamp that has a place");
-    sum += *place;
-    if (!axis) axis = axis_of(lamp);
+    if (!place_of(lamp))
+      throw UsageError(option, "'" + name + "' shines from everywhere", "a lamp that has a place");
     move.lamps.push_back(i);
     if (lamp.group.valid() && !has(move.groups, lamp.group)) move.groups.push_back(lamp.group);
   }
   if (move.lamps.empty())
     throw UsageError(option, "no lamp or group '" + name + "'" + did_you_mean(name, known),
                      join(known, ", "));
+  return move;
+}
+
+LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,
+                   const std::string& option) {
+  LampMove move = find_lamps(scene, lamps, name, option);
+  Vec3 sum(0);
+  std::optional<Vec3> axis;
+  for (const std::size_t i : move.lamps) {
+    sum += place_of(lamps.all()[i]).value_or(Vec3(0));
+    if (!axis) axis = axis_of(lamps.all()[i]);
+  }
   Mat4 turn(1.0f);
   if (to.target) {
     if (!axis) throw UsageError(option, "'" + name + "' shines all around", "a target for lamps that point");

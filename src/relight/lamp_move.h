@@ -34,6 +34,9 @@ std::optional<Vec3> axis_of(const Lamp& lamp);
 /// @throws UsageError: no such lamp, or one without a place (sun, sky), or a target for what points nowhere
 LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,
                    const std::string& option);
+/// The same lamps where they stand.
+LampMove find_lamps(const Scene& scene, const Lamps& lamps, const std::string& name,
+                    const std::string& option);
 
 /// Lamps of a light group that come by transfer.
 struct MovedGroup {

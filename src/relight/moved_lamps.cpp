@@ -15,8 +15,7 @@ namespace {
 constexpr uint32_t kCloudStream = 0x636c6f64u, kMetStream = 0x6d6574u, kBuriedStream = 0x62757269u;
 
 /// Lamps are the scene's lights, in order, and then the emissive meshes.
-Scene with(const Scene& scene, const World& world, const std::vector<Light>& lights,
-           std::span<const LampMove> moves) {
+Scene with(const Scene& scene, const World& world, const MoreLights& more, std::span<const LampMove> moves) {
   Scene out = scene;
   if (!moves.empty()) {
     const Lamps lamps(scene, world);
@@ -28,7 +27,7 @@ Scene with(const Scene& scene, const World& world, const std::vector<Light>& lig
         frame = move.motion * frame;
       }
   }
-  out.lights.insert(out.lights.end(), lights.begin(), lights.end());
+  append(out, more);
   return out;
 }
 
@@ -46,16 +45,15 @@ SurfacePoint point_of(const OperatorPoint& point) {
           unpack_normal(point.geometric)};
 }
 
-MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tracer,
-                       const std::vector<Light>& lights, std::span<const MovedGroup> groups,
-                       std::span<const LampMove> moves)
+MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tracer, const MoreLights& added,
+                       std::span<const MovedGroup> groups, std::span<const LampMove> moves)
     : world_(world),
       tracer_(tracer),
-      scene_(with(scene, world, lights, moves)),
+      scene_(with(scene, world, added, moves)),
       moved_world_(moves_meshes(scene, moves) ? make_world(scene_) : World()),
       lamps_(scene_, moved_world_.size() > 0 ? moved_world_ : world_),
       near_(near_lamps(lamps_)) {
-  const std::size_t more = lights.size();
+  const std::size_t more = added.lights.size();
   // Lamps of the scene alone, by their number there.
   const auto before = [&](std::size_t i) { return i < scene.lights.size() ? i : i - more; };
   const auto one_of = [](const std::vector<std::size_t>& some, std::size_t i) {
@@ -66,11 +64,11 @@ MovedLamps::MovedLamps(const Scene& scene, const World& world, const Tracer& tra
                        [&](const LampMove& move) { return one_of(move.lamps, before(i)); });
   };
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    const bool added = i >= scene.lights.size() && i < scene_.lights.size();
+    const bool joined = i >= scene.lights.size() && i < scene_.lights.size();
     const LampShape& shape = lamps_.all()[i].shape;
     const bool met =
         std::holds_alternative<SkyLamp>(shape) || (std::holds_alternative<MeshLamp>(shape) && !moved(i));
-    if (added) {
+    if (joined) {
       chosen_.push_back({i, Rgb(1), met});
       continue;
     }

@@ -4,6 +4,7 @@
 
 #include "mix/mix.h"
 #include "relight/lamp_move.h"
+#include "scene/more_lights.h"
 #include "trace/tracer.h"
 #include "transfer/operator.h"
 
@@ -16,7 +17,7 @@ class MovedLamps {
  public:
   /// The scene's groups and more lights. Tracer and world must outlive it. A moved lamp that is a mesh shines
   /// from its new place through its old body: geometry stays.
-  MovedLamps(const Scene& scene, const World& world, const Tracer& tracer, const std::vector<Light>& lights,
+  MovedLamps(const Scene& scene, const World& world, const Tracer& tracer, const MoreLights& added,
              std::span<const MovedGroup> groups, std::span<const LampMove> moves = {});
   MovedLamps(const MovedLamps&) = delete;
   MovedLamps& operator=(const MovedLamps&) = delete;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "light/test_rig.h"
+#include "scene/lens.h"
 #include "scene/shapes.h"
 
 namespace sconce {
@@ -161,6 +162,45 @@ TEST(MovedLamps, LampsInsideThingsAreFound) {
   const LampMove in = find_move(room.scene, room.lamps, "lamp", {Vec3(3, 2, 0)}, "--move");
   EXPECT_EQ(room.moved("lamp", {&in, 1}).buried(), std::vector<std::string>{"lamp"});
   EXPECT_TRUE(room.moved("lamp").buried().empty());
+}
+
+/// Down with `candela` at every angle below the horizon.
+Luminaire downlight(double candela) {
+  Luminaire out;
+  out.name = "downlight";
+  out.photometry.azimuths = {0, 360};
+  out.photometry.polars = {0, 90};
+  out.photometry.candela = {candela, candela, candela, candela};
+  return out;
+}
+
+/// Nadir along -z, so that it looks down.
+Light hung(const Vec3& at) {
+  Light light;
+  light.frame = look_at(at, at - Vec3(0, 1, 0)).frame;
+  light.intensity = Rgb(1);
+  light.shape = LuminaireLight{Id<Luminaire>(0)};
+  return light;
+}
+
+// Lamps that join bring their tables with them, whatever tables the scene has: E = I / d2. A sun is as
+// strong everywhere.
+TEST(MovedLamps, MeasuredLampsAndSunsJoin) {
+  Scene scene = lamp_scene();
+  scene.luminaires = {downlight(5)};
+  scene.lights.push_back(hung(Vec3(6, 1, 0)));
+  const Room room(std::move(scene));
+  MoreLights more{{hung(Vec3(8, 1.5f, 0))}, {downlight(90)}};
+  Light sun;
+  sun.frame = look_at(Vec3(0), Vec3(0, -1, 0)).frame;
+  sun.intensity = Rgb(7);
+  sun.shape = SunLight{};
+  append(more, MoreLights{{hung(Vec3(8, 2, 0))}, {downlight(400)}});
+  const MovedLamps measured(room.scene, room.world, room.tracer, more, {});
+  EXPECT_NEAR(measured.illuminance(facing_up(Vec3(8, 0, 0)), 0, 0).g, 90 / 2.25f + 400 / 4.0f, 1e-3f);
+  const MovedLamps noon(room.scene, room.world, room.tracer, {{sun}}, {});
+  EXPECT_NEAR(noon.illuminance(facing_up(Vec3(5, 0, 0)), 0, 0).g, 7, 1e-5f);
+  EXPECT_EQ(noon.illuminance(facing_up(Vec3(0, 0, 0)), 0, 0).g, 0) << "below the lamp";
 }
 
 }  // namespace

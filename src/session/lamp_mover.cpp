@@ -30,9 +30,9 @@ MovedLamps Movable::alone(std::size_t lamp, const std::optional<Vec3>& at) const
                     {&move, at ? std::size_t{1} : 0});
 }
 
-MovedLamps Movable::alone(const Light& other) const {
+MovedLamps Movable::alone(const MoreLights& others) const {
   const View& view = opened->rays;
-  return MovedLamps(view.scene(), view.world(), view.tracer(), {other}, {});
+  return MovedLamps(view.scene(), view.world(), view.tracer(), others, {});
 }
 
 std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
@@ -41,7 +41,7 @@ std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progres
 }
 
 std::vector<std::size_t> LampMover::find(const std::string& name, const std::string& where) const {
-  return find_move(movable_->opened->rays.scene(), movable_->lamps, name, {}, where).lamps;
+  return find_lamps(movable_->opened->rays.scene(), movable_->lamps, name, where).lamps;
 }
 
 std::optional<Vec3> LampMover::place(std::size_t lamp, const MovedPlaces& moved) const {
@@ -83,7 +83,7 @@ LampMover::Lit LampMover::lit(std::size_t lamp, const MovedLamp& state) const {
     made.light = std::move(*light), made.fine = true;
     return made;
   }
-  made.other = std::get<Light>(other);
+  made.other = std::get<MoreLights>(std::move(other));
   made.light = movable_->light(movable_->alone(*made.other), false);
   return made;
 }

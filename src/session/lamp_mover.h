@@ -24,7 +24,7 @@ struct Movable {
   /// @param at  where its middle is; none: where it was baked
   MovedLamps alone(std::size_t lamp, const std::optional<Vec3>& at) const;
   /// One that is none of the scene's.
-  MovedLamps alone(const Light& other) const;
+  MovedLamps alone(const MoreLights& others) const;
   /// Its light on the operator's texels, direct and indirect, lux.
   /// @param fine  by many shadow rays for each texel, else by one
   std::vector<Rgb> light(const MovedLamps& lamp, bool fine, const Progress& progress = {}) const;
@@ -38,7 +38,7 @@ struct Movable {
 };
 
 /// What a lamp has become: one that rays know, or its light on the operator's texels, lux, at unit weight.
-using OtherLamp = std::variant<Light, std::vector<Rgb>>;
+using OtherLamp = std::variant<MoreLights, std::vector<Rgb>>;
 
 class LampMover {
  public:
@@ -65,7 +65,7 @@ class LampMover {
   struct Task {
     std::size_t lamp;
     std::optional<MovedLamp> state;  ///< none: as it was baked
-    std::optional<Light> other{};
+    std::optional<MoreLights> other{};
   };
   std::optional<Task> rough() const;
   struct Fine {
@@ -89,7 +89,7 @@ class LampMover {
  private:
   struct Lit {
     std::optional<MovedLamp> state;
-    std::optional<Light> other;
+    std::optional<MoreLights> other;
     std::vector<Rgb> light;
     bool fine = false, stale = false;
   };

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relight_lamps.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "import/lights.h"
+#include "lamp_kinds.h"
+#include "picture/seen.h"
+#include "picture_options.h"
+
+namespace sconce::app {
+
+namespace {
+
+constexpr std::string_view kMove = "option '--move'", kKind = "option '--kind'";
+
+/// `LAMP=X,Y,Z`, and `,target=X,Y,Z` after it. @throws UsageError
+LampChange parse_move(const std::string& text) {
+  constexpr std::string_view kTarget = ",target=";
+  const std::size_t target = text.rfind(kTarget);
+  const std::string place = text.substr(0, target);
+  const std::size_t equals = place.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError(std::string(kMove), "'" + text + "' is not understood", "LAMP=X,Y,Z[,target=X,Y,Z]");
+  LampPlace to{parse_point(place.substr(equals + 1), "--move"), {}};
+  if (target != std::string::npos) to.target = parse_point(text.substr(target + kTarget.size()), "--move");
+  return {place.substr(0, equals), to};
+}
+
+/// `LAMP=WORDS`: as the words begin with a kind, the name ends before the last `=KIND`.
+LampChange parse_kind_option(const std::string& text) {
+  const std::size_t equals = text.substr(0, text.find(',')).rfind('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw UsageError(std::string(kKind), "'" + text + "' is not understood", "LAMP=KIND[,KEY=VALUE...]");
+  return {text.substr(0, equals), {}, text.substr(equals + 1)};
+}
+
+void add(OtherKind made, const Rgb& weight, MoreLights& more, std::vector<gpu::LampShader>& shaders) {
+  if (auto* shader = std::get_if<gpu::LampShader>(&made)) {
+    shader->intensity = shader->intensity * weight;
+    shaders.push_back(std::move(*shader));
+    return;
+  }
+  auto& lights = std::get<MoreLights>(made);
+  for (Light& light : lights.lights) light.intensity = light.intensity * weight;
+  append(more, std::move(lights));
+}
+
+/// The group of that name. @throws UsageError
+Id<LightGroup> find_group(const Scene& scene, const std::string& name) {
+  std::vector<std::string> known;
+  for (const LightGroup& group : scene.groups) known.push_back(group.name);
+  const auto it = std::find(known.begin(), known.end(), name);
+  if (it == known.end())
+    throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
+                     join(known, ", "));
+  return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
+}
+
+/// Without the lamps that shine as something else.
+std::vector<MovedGroup> without(std::vector<MovedGroup> groups, const Lamps& lamps,
+                                std::span<const std::size_t> others) {
+  for (MovedGroup& group : groups) {
+    if (group.lamps.empty())
+      for (std::size_t i = 0; i < lamps.size(); ++i)
+        if (lamps.all()[i].group == group.group) group.lamps.push_back(i);
+    std::erase_if(group.lamps, [&](std::size_t lamp) {
+      return std::find(others.begin(), others.end(), lamp) != others.end();
+    });
+  }
+  std::erase_if(groups, [](const MovedGroup& group) { return group.lamps.empty(); });
+  return groups;
+}
+
+}  // namespace
+
+void LampWords::declare(Options& options) {
+  options.option(
+      "--light", &lights,
+      "a lamp: point, spot or sun, then keys as in a side file, for example "
+      "spot,position=1,2,0,target=0,0,0,lumens=800; or luminaire,file=lamp.ldt,position=X,Y,Z: a measured "
+      "one; or group,name=G: the group by transfer instead of by its layer; or "
+      "shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; may be given "
+      "several times");
+  options.option("--lights", &file, "TOML file with [[light]] and [[luminaire]] tables");
+  options.option(
+      "--move", &moves,
+      "LAMP=X,Y,Z[,target=X,Y,Z]: a lamp or a whole group of the package leaves its layer and shines "
+      "from there, turned to the target; may be given several times");
+  options.option("--kind", &kinds,
+                 "LAMP=KIND[,KEY=VALUE...]: a lamp or each of a group becomes another one, in the words of "
+                 "--light, where it stands or is moved to; its flux (but a luminaire's, a sun's), colour and "
+                 "direction stay where they say none, and it goes on following its fader; may be given "
+                 "several times");
+}
+
+WantedLamps LampWords::parse(const Progress& progress) const {
+  constexpr std::string_view kGroup = "group,name=";
+  WantedLamps wanted;
+  for (const std::string& text : lights) {
+    if (text.starts_with(kGroup))
+      wanted.groups.push_back(text.substr(kGroup.size()));
+    else
+      add(parse_kind(text, "--light " + text, progress), Rgb(1), wanted.more, wanted.shaders);
+  }
+  if (!file.empty()) append(wanted.more, read_lights(file, progress));
+  for (const std::string& text : moves) wanted.changes.push_back(parse_move(text));
+  for (const std::string& text : kinds) {
+    LampChange change = parse_kind_option(text);
+    const auto same = std::find_if(wanted.changes.begin(), wanted.changes.end(),
+                                   [&](const LampChange& c) { return c.name == change.name; });
+    if (same != wanted.changes.end())
+      same->kind = change.kind;
+    else
+      wanted.changes.push_back(std::move(change));
+  }
+  if (wanted.more.lights.empty() && wanted.groups.empty() && wanted.changes.empty() && wanted.shaders.empty())
+    throw UsageError({}, "no lamp to move: --light, --lights, --move or --kind",
+                     "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
+  return wanted;
+}
+
+RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps, bool whole,
+                       MixSpec& lightmap, const Progress& progress) {
+  RelitLamps out{wanted.more, wanted.shaders, {}, {}, {}};
+  std::vector<Id<LightGroup>> groups;
+  for (const std::string& name : wanted.groups) groups.push_back(find_group(scene, name));
+  std::vector<LampMove> leaving;
+  std::vector<std::size_t> others;
+  for (const LampChange& change : wanted.changes) {
+    const std::string option(change.to ? kMove : kKind);
+    LampPlace to = change.to.value_or(LampPlace{});
+    // What it becomes may point where it does not.
+    if (!change.kind.empty()) to.target.reset();
+    LampMove move = change.to ? find_move(scene, lamps, change.name, to, option)
+                              : find_lamps(scene, lamps, change.name, option);
+    if (change.kind.empty())
+      out.moves.push_back(move);
+    else
+      for (const std::size_t i : move.lamps) {
+        const Lamp& lamp = lamps.all()[i];
+        LampPlace at{Vec3(move.motion * glm::vec4(place_of(lamp).value_or(Vec3(0)), 1)), {}};
+        if (change.to) at.target = change.to->target;
+        others.push_back(i);
+        const Rgb weight = weight_of(lightmap, lamp.group);
+        if (!weight.is_black())
+          add(become(lamp, at, change.kind, "--kind " + change.name + "=" + change.kind, progress), weight,
+              out.more, out.shaders);
+      }
+    leaving.push_back(std::move(move));
+  }
+  out.left = take_lamps(lamps, groups, leaving, whole, lightmap);
+  out.shining = without(out.left, lamps, others);
+  return out;
+}
+
+}  // namespace sconce::app

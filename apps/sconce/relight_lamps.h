@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lamps that `sconce relight` is told of: new ones, and those of the package that go elsewhere or become
+// others.
+#pragma once
+
+#include "app.h"
+#include "gpu/lamp_shader.h"
+#include "mix/preset.h"
+#include "relight/lamp_move.h"
+#include "scene/more_lights.h"
+
+namespace sconce::app {
+
+/// What becomes of a lamp, of all lamps of a name, or of a group.
+struct LampChange {
+  std::string name;
+  std::optional<LampPlace> to{};  ///< none: where it stands
+  std::string kind{};             ///< of become(); "" = its own
+};
+
+struct WantedLamps {
+  MoreLights more;
+  std::vector<gpu::LampShader> shaders;
+  std::vector<std::string> groups;  ///< by transfer instead of by their layers
+  std::vector<LampChange> changes;
+};
+
+/// `--light`, `--lights`, `--move`, `--kind`.
+struct LampWords {
+  std::vector<std::string> lights, moves, kinds;
+  std::string file;
+
+  void declare(Options& options);
+  /// @throws UsageError; Error for files
+  WantedLamps parse(const Progress& progress) const;
+};
+
+/// The same in the package's terms.
+struct RelitLamps {
+  MoreLights more;
+  std::vector<gpu::LampShader> shaders;
+  std::vector<LampMove> moves;
+  std::vector<MovedGroup> left;     ///< of take_lamps(): what is no longer in the lightmap
+  std::vector<MovedGroup> shining;  ///< and shines as what it was, from where `moves` say
+};
+
+/// @param whole     of take_lamps()
+/// @param lightmap  weights of groups that leave it become 0
+/// @throws UsageError: no such lamp or group
+RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps, bool whole,
+                       MixSpec& lightmap, const Progress& progress);
+
+}  // namespace sconce::app
