@@ -101,7 +101,7 @@ inline Truth trace_truth(const View& view, const Operator& op, const std::vector
   std::vector<std::unique_ptr<MovedLamps>> moved;
   for (const Light& lamp : lamps)
     moved.push_back(std::make_unique<MovedLamps>(view.scene(), view.world(), view.tracer(),
-                                                 std::vector<Light>{lamp}, std::span<const MovedGroup>()));
+                                                 MoreLights{{lamp}}, std::span<const MovedGroup>()));
   parallel_for(boxes.size(), 1, [&](std::size_t k) {
     const auto n = static_cast<double>(boxes[k].size());
     std::vector<GroupValue> values(groups);
