@@ -27,6 +27,12 @@ struct LightSample {
   bool delta = false;  ///< no direction picked at random ever meets this lamp
 };
 inline constexpr float kInfinite = 1e30f;
+/// Where a shadow ray ends, in metres along the sample's direction; <= 0 where nothing can stand between. The
+/// lamp's own surface must not count as an occluder.
+/// @param offset  distance between the point and the ray's start (offset_origin)
+inline float shadow_end(const LightSample& light, float offset) {
+  return light.delta ? light.distance : light.distance * (1 - 1e-4f) - 4 * offset;
+}
 
 /// A particle of light that leaves a lamp; a mean over particles is a mean over the lamp's light.
 struct EmittedLight {

@@ -47,8 +47,7 @@ Rgb Highlights::pick(const Tracer& tracer, Vec2 u) const {
   if (mirrored.is_black()) return {};
   const float density = chance_[lamp] * light.pdf + gloss_density(surface_, to_eye_, at_, light.direction, 0);
   const Vec3 start = offset_origin(at_.position, at_.geometric_normal, at_.geometric_normal);
-  // The lamp's own surface must not count as an occluder.
-  const float end = light.distance * (1 - 1e-4f) - 4 * glm::distance(start, at_.position);
+  const float end = shadow_end(light, glm::distance(start, at_.position));
   const Rgb passed = end > 0 ? tracer.transmittance({start, light.direction, end}) : Rgb(1.0f);
   return weight_of(*mix_, lamps_->all()[lamp].group) * mirrored * light.radiance * passed / density;
 }

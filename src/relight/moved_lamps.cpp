@@ -92,15 +92,14 @@ std::vector<std::pair<std::size_t, Rgb>> MovedLamps::chosen() const {
 Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const {
   Rgb sum;
   const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
-  // The lamp's own surface must not count as an occluder.
-  const float clearance = 4 * glm::distance(start, at.position);
+  const float offset = glm::distance(start, at.position);
   for (const Chosen& chosen : chosen_) {
     LightSample light;
     const Vec2 u = sobol_pair(index, 0, mix32(stream, static_cast<uint32_t>(chosen.lamp)));
     if (!lamps_.sample(chosen.lamp, at.position, u, light) || light.radiance.is_black()) continue;
     const float cosine = glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) continue;
-    const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
+    const float end = shadow_end(light, offset);
     const Rgb passed = end > 0 ? tracer_.transmittance({start, light.direction, end}) : Rgb(1.0f);
     if (passed.is_black()) continue;
     const float density = light.delta ? 1 : light.pdf + (chosen.met ? cosine * kInvPi : 0);

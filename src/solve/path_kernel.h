@@ -61,10 +61,10 @@ class PathKernel {
                   depth == 0 ? budget_.receiver : budget_.bounce);
       const Vec3 start =
           probe ? at.position : offset_origin(at.position, at.geometric_normal, at.geometric_normal);
-      const float clearance = 4 * glm::distance(start, at.position);
+      const float offset = glm::distance(start, at.position);
       const SobolBits on_lamps = bits(2);
       picker_.pick(choice.x, [&](uint32_t lamp, float expected) {
-        next_event(at, start, clearance, lamp, expected,
+        next_event(at, start, offset, lamp, expected,
                    on_lamps.scrambled(stream ^ (lamp << 16 | depth)).unit(), throughput, depth == 0, probe,
                    sums);
       });
@@ -122,18 +122,18 @@ class PathKernel {
   static constexpr float kGrazing = 0.05f;
 
   /// @param start      where rays leave the surface
-  /// @param clearance  the lamp's own surface must not count as an occluder: shadow rays end so far before it
+  /// @param offset  of `start` from the point
   /// @param first      at the receiver itself
   /// @param probe      which has no horizon
   template <class Sums>
-  void next_event(const SurfacePoint& at, const Vec3& start, float clearance, uint32_t lamp, float expected,
+  void next_event(const SurfacePoint& at, const Vec3& start, float offset, uint32_t lamp, float expected,
                   Vec2 u, const Rgb& throughput, bool first, bool probe, Sums& sums) {
     if (wanted_[lamp] == 0) return;
     LightSample light;
     if (!lamps_.sample(lamp, at.position, u, light) || light.radiance.is_black()) return;
     const float cosine = probe ? kProbe : glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || (!probe && !(glm::dot(light.direction, at.geometric_normal) > 0))) return;
-    const float end = light.delta ? light.distance : light.distance * (1 - 1e-4f) - clearance;
+    const float end = shadow_end(light, offset);
     const Rgb passed = end > 0 ? rays_.transmittance({start, light.direction, end}) : Rgb(1.0f);
     if (passed.is_black()) return;
     if (first) sums.aim(light.direction, cosine);
