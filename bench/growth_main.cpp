@@ -5,18 +5,13 @@
 // growth [SOLVER [SAMPLES [LARGEST]]]; LARGEST scales down the largest triangle count (default 1000000).
 // Receivers are points spread over the surfaces by area: unwrapping is no solver's cost and is not part.
 // Every row runs in a process of its own, so that its peak memory is its own.
-#include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <thread>
 
 #include "core/parallel.h"
 #include "core/sobol.h"
+#include "growth.h"
 #include "scene/groups.h"
 #include "scene/shapes.h"
 #include "solve/solver.h"
@@ -59,10 +54,6 @@ Scene make_scene(const Setup& setup) {
   return scene;
 }
 
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 Cost run(const Setup& setup) {
   const ThreadLimit threads(setup.threads);
   const Scene scene = make_scene(setup);
@@ -95,44 +86,11 @@ Cost run(const Setup& setup) {
   return cost;
 }
 
-/// In a child, which must be forked before this process starts any thread.
 Cost measure(const Setup& setup) {
-  int ends[2];
-  if (pipe(ends) != 0) throw Error("growth", "no pipe");
-  const pid_t child = fork();
-  if (child < 0) throw Error("growth", "no process");
-  if (child == 0) {
-    Cost cost;
-    try {
-      cost = run(setup);
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "growth: {}\n", error.what());
-      _exit(1);
-    }
-    _exit(write(ends[1], &cost, sizeof cost) == sizeof cost ? 0 : 1);
-  }
-  close(ends[1]);
-  Cost cost;
-  const bool whole = read(ends[0], &cost, sizeof cost) == sizeof cost;
-  close(ends[0]);
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  if (!whole || status != 0) throw Error("growth", "a row failed");
-  cost.megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
-  return cost;
-}
-
-/// Slope of log y over log x.
-double exponent(const std::vector<double>& x, const std::vector<double>& y) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto n = static_cast<double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double a = std::log(x[i]), b = std::log(std::max(y[i], 1e-9));
-    sx += a, sy += b, sxx += a * a, sxy += a * b;
-  }
-  const double spread = n * sxx - sx * sx;
-  return spread > 0 ? (n * sxy - sx * sy) / spread : 0;
+  const auto [cost, megabytes] = in_own_process<Cost>([&] { return run(setup); });
+  Cost out = cost;
+  out.megabytes = megabytes;
+  return out;
 }
 
 /// One sweep: a table of its rows, then the exponents.

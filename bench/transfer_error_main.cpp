@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "transfer/folded_bounces.h"
-#include "transfer_truth.h"
+#include "transfer_case.h"
 
 using namespace sconce;
 
@@ -74,18 +74,10 @@ class CullingTable {
   std::array<Row, 4> rows_{{{1e-4f}, {3e-4f}, {1e-3f}, {3e-3f}}};
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
-  const Package package = Package::open(argv[1]);
-  const View view(package);
-  const Operator op = open_operator(argv[2]);
-  const std::vector<Light> lamps = random_lamps(view, op, number(3, 20), static_cast<uint32_t>(number(6, 1)));
-  const Boxes boxes =
-      make_boxes(op, static_cast<std::size_t>(number(4, 400)), static_cast<uint32_t>(number(7, 4)));
-  const Truth truth = trace_truth(view, op, lamps, boxes, number(5, 2048));
-
+void report(const Words& words) {
+  const TransferCase own(words, 2048);
+  const auto& [package, view, op, lamps, boxes, truth] = own;
+  if (truth.light.empty()) throw UsageError("PATHS", "0", "some");
   const FoldedBounces bounces(op);
   CullingTable culling(op.gather);
   std::vector<Rgb> indirect(op.gather.rows);
@@ -118,9 +110,15 @@ int main(int argc, char** argv) {
   }
   culling.print();
   fmt::print("\n{}: {} receivers, {} slots, {:.1f} MB, {:.0f} multiplications per receiver, {} sweeps\n",
-             argv[1], op.gather.rows, op.slots(), static_cast<double>(op.bytes()) / 1e6,
+             words.name(1), op.gather.rows, op.slots(), static_cast<double>(op.bytes()) / 1e6,
              op.gather.macs_per_row(), op.sweeps);
   for (int kind = 0; kind < 2; ++kind)
     if (by_kind[kind].lamps > 0) fmt::print("{:6} {}\n", kind == 0 ? "point" : "spot", by_kind[kind].text());
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_with_words(argc, argv, 2,
+                        "transfer_error PACKAGE OPERATOR [LAMPS [BOXES [PATHS [SEED [SIDE]]]]]", report);
 }

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What making an operator costs against the size of a scene, whose triangles are cut into four again and
-// again: the light stays the same. As Markdown; CPU time of all threads, which a busy machine does not
-// lengthen much. Usage: transfer_growth SCENE [CUTS WIDTH HEIGHT GATHER]. The table:
-// bench/results/transfer.md.
-#include <fmt/format.h>
-#include <sys/resource.h>
-
+// again: the light stays the same. As Markdown, with fitted exponents; CPU time of all threads, which a busy
+// machine does not lengthen much; every row in a process of its own. Usage: transfer_growth SCENE [CUTS WIDTH
+// HEIGHT GATHER]. The table: bench/results/transfer_growth.md.
 #include <chrono>
-#include <ctime>
 
+#include "growth.h"
 #include "import/import.h"
 #include "relight/precompute.h"
 #include "scene/groups.h"
+#include "words.h"
 
 using namespace sconce;
 
@@ -38,38 +36,49 @@ void cut(Mesh& mesh) {
   mesh.triangles = std::move(triangles);
 }
 
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+struct Cost {
+  std::size_t triangles;
+  double cpu, wall;  ///< seconds
+};
+
+Cost run(const Scene& scene, const TransferParams& params, int width, int height) {
+  const World world = make_world(scene);
+  const Tracer tracer(scene, world);
+  const TracedScene traced{scene, world, tracer};
+  const double before = cpu_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  make_operator(traced, pixel_receivers(traced, scene.cameras.at(0), width, height), params, "");
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  return {world.size(), cpu_seconds() - before, wall.count()};
+}
+
+void report(const Words& words) {
+  TransferParams params;
+  params.gather = static_cast<std::size_t>(words.number(5, 65536));
+  const int cuts = words.number(2, 3), width = words.number(3, 640), height = words.number(4, 480);
+  check(params);
+  fmt::print("{}, {} x {}, {} slots\n\n| triangles | CPU s | wall s | peak MB |\n|---:|---:|---:|---:|\n",
+             words.name(1), width, height, params.gather);
+  std::vector<double> triangles, cpu, wall, memory;
+  for (int i = 0; i <= cuts; ++i) {
+    const auto [cost, megabytes] = in_own_process<Cost>([&] {
+      Scene scene = import_scene(words.name(1));
+      assign_groups(scene, Grouping::automatic);
+      for (int k = 0; k < i; ++k)
+        for (Mesh& mesh : scene.meshes) cut(mesh);
+      return run(scene, params, width, height);
+    });
+    triangles.push_back(static_cast<double>(cost.triangles));
+    cpu.push_back(cost.cpu), wall.push_back(cost.wall), memory.push_back(megabytes);
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.0f} |\n", cost.triangles, cost.cpu, cost.wall, megabytes);
+    std::fflush(stdout);
+  }
+  fmt::print("| exponent | {:.2f} | {:.2f} | {:.2f} |\n", exponent(triangles, cpu), exponent(triangles, wall),
+             exponent(triangles, memory));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
-  Scene scene = import_scene(argv[1]);
-  assign_groups(scene, Grouping::automatic);
-  TransferParams params;
-  params.gather = static_cast<std::size_t>(number(5, 65536));
-  const int width = number(3, 640), height = number(4, 480);
-  fmt::print(
-      "{}, {} x {}, {} slots\n\n| triangles | CPU s | wall s | MB while computing, the most so far |\n",
-      argv[1], width, height, params.gather);
-  fmt::print("|---|---|---|---|\n");
-  for (int i = 0; i <= number(2, 3); ++i) {
-    if (i > 0)
-      for (Mesh& mesh : scene.meshes) cut(mesh);
-    const World world = make_world(scene);
-    const Tracer tracer(scene, world);
-    const TracedScene traced{scene, world, tracer};
-    const double before = cpu_seconds();
-    const auto start = std::chrono::steady_clock::now();
-    make_operator(traced, pixel_receivers(traced, scene.cameras.at(0), width, height), params, "");
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    fmt::print("| {} | {:.0f} | {:.0f} | {:.0f} |\n", world.size(), cpu_seconds() - before, wall.count(),
-               static_cast<double>(usage.ru_maxrss) / 1024);
-    std::fflush(stdout);
-  }
-  return 0;
+  return run_with_words(argc, argv, 1, "transfer_growth SCENE [CUTS [WIDTH [HEIGHT [GATHER]]]]", report);
 }

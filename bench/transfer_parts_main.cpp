@@ -9,7 +9,7 @@
 #include "relight/cloud_photons.h"
 #include "relight/operator_start.h"
 #include "transfer/folded_bounces.h"
-#include "transfer_truth.h"
+#include "transfer_case.h"
 
 using namespace sconce;
 
@@ -19,11 +19,11 @@ using Lights = std::vector<std::vector<Rgbx>>;  ///< per lamp, per slot
 
 class Parts {
  public:
-  Parts(const View& view, const Operator& op, const std::vector<Light>& lamps, Boxes boxes, Truth truth)
-      : view_(view), op_(op), lamps_(lamps), boxes_(std::move(boxes)), truth_(std::move(truth)) {
+  explicit Parts(const TransferCase& c)
+      : view_(c.view), op_(c.op), lamps_(c.lamps), boxes_(c.boxes), truth_(c.truth) {
     Camera camera;
-    camera.name = op.camera, camera.frame = op.camera_frame, camera.yfov = op.camera_yfov;
-    receivers_ = pixel_receivers(view.traced(), camera, op.width, op.height);
+    camera.name = op_.camera, camera.frame = op_.camera_frame, camera.yfov = op_.camera_yfov;
+    receivers_ = pixel_receivers(view_.traced(), camera, op_.width, op_.height);
   }
 
   /// A cloud as `transfer` makes it.
@@ -224,18 +224,17 @@ void chapter(Parts& parts, const Operator& op) {
                     parts.by_photons(*own, direct, 16'000'000, 1000), 4096);
 }
 
+void report(const Words& words) {
+  const TransferCase own(words, 4096);
+  if (own.op.kind != OperatorReceivers::pixels)
+    throw UsageError(words.name(2), "texels", "pixels of a camera");
+  Parts parts(own);
+  own.op.gather.plain() ? chapter(parts, own.op) : fitted(parts, own.op, !own.truth.light.empty());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
-  const Package package = Package::open(argv[1]);
-  const View view(package);
-  const Operator op = open_operator(argv[2]);
-  const std::vector<Light> lamps = random_lamps(view, op, number(3, 20), static_cast<uint32_t>(number(6, 1)));
-  Boxes boxes = make_boxes(op, static_cast<std::size_t>(number(4, 200)), 4);
-  const int paths = number(5, 4096);
-  Truth truth = paths > 0 ? trace_truth(view, op, lamps, boxes, paths) : Truth();
-  Parts parts(view, op, lamps, std::move(boxes), std::move(truth));
-  op.gather.plain() ? chapter(parts, op) : fitted(parts, op, paths > 0);
-  return 0;
+  return run_with_words(argc, argv, 2, "transfer_parts PACKAGE OPERATOR [LAMPS [BOXES [PATHS [SEED]]]]",
+                        report);
 }
