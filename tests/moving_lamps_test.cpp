@@ -26,8 +26,8 @@ TEST_F(Relight, AGroupByTransferIsItsLayer) {
 
 // 5 and 34: two groups together are their sum, to float rounding. And each is its layer as far as both are
 // free of noise: the bake keeps light finer (on cells, and by paths where things are close), the file has
-// codes of 8 bits. To 1e-5 the two are one where cloud, rays and coefficients are the same: Bounces, in
-// gather_test.
+// codes of 8 bits. To 1e-5 the two are one where cloud, rays and coefficients are the same: ExactOperator, in
+// exact_test.
 TEST_F(Relight, SuperpositionOfGroups) {
   write_file(folder / "room.glb", write_glb(test::two_lamp_room(), "test"));
   expect_done(run({"bake", file("room.glb"), "--density", "16", "--samples", "1024"}));

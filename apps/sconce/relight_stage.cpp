@@ -147,7 +147,7 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
   const Scene& scene = job.view.scene();
   const bool traced = device.name == "auto" && ((device.reflections && scene.has_mirrors()) ||
                                                 scene.has_panes() || job.view.sees_normal_maps());
-  const bool cpu = traced || job.cull > 0;
+  const bool cpu = traced || job.cull > 0 || !job.op.gather.basis.values.empty();
   if (auto context = open_context(!job.shaders.empty() ? "gl" : cpu ? "cpu" : device.name)) {
     try {
       std::vector<gpu::LampShader> all =

@@ -62,8 +62,9 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
   options.option("--lights", &params.lights, "lamps at random places that rows are fitted to");
   options.option(
       "--method", &method,
-      "fitted; or chapter, to compare with: form factors between points, bounces by photons, plain "
-      "rows of 100 and 40 coefficients; hours at full size");
+      "fitted; or, to compare with, chapter: form factors between points, bounces by photons, plain "
+      "rows of 100 and 40 coefficients, hours at full size; or exact: all coefficients as floats, "
+      "gigabytes at full size");
   options.option(
       "--choice", &choice,
       "of the chapter's coefficients, the largest times: root-area (of the wavelet's support), area, "
@@ -81,8 +82,10 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
   params.seed = static_cast<uint32_t>(seed);
   if (method == "chapter")
     use_chapter(options, choice, params);
+  else if (method == "exact")
+    params.method = TransferMethod::exact;
   else if (method != "fitted")
-    throw UsageError("option '--method'", "unknown method '" + method + "'", "fitted, chapter");
+    throw UsageError("option '--method'", "unknown method '" + method + "'", "fitted, chapter, exact");
   job.package = input;
   job.options = given_options(options);
   return std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "transfer/folded_bounces.h"
 
 namespace sconce::gpu {
@@ -41,7 +42,9 @@ Transfer::Rows::Rows(const Context& context, const ClusterRows& r, const std::st
       means(context, r.basis.means, what),
       weights(context, r.weights, what),
       scales(context, r.scales, what),
-      sums(context, ClusterRows::kRank * blocks * kLight, nullptr, what) {}
+      sums(context, ClusterRows::kRank * blocks * kLight, nullptr, what) {
+  if (!r.basis.values.empty()) throw Error(what, "are not quantised: only the processor reads them");
+}
 
 namespace {
 

@@ -2,55 +2,15 @@
 #include "relight/chapter_operator.h"
 
 #include "relight/cloud_photons.h"
-#include "relight/operator_start.h"
+#include "relight/plain_rows.h"
 
 namespace sconce {
 
 namespace {
 
-constexpr std::size_t kBlock = WaveletRows::kBlock, kGroup = 16;  // blocks that are made at a time
-
-/// Rows of coefficients of their own.
-/// @param state  keeps finished groups of rows; may be null
-/// @param make   fills row i, a sparse one; thread-safe
-template <class Make>
-void make_plain_rows(uint32_t count, std::size_t coefficients, const TransferParams& params,
-                     const char* stage, const TransferWork& work, TransferState* state, Operator& op,
-                     ClusterRows& out, const Make& make) {
+PlainRows plain(const TransferParams& params, int coefficients) {
   const auto columns = static_cast<uint32_t>(params.gather);
-  const std::size_t filled = (count + kBlock - 1) / kBlock * kBlock;
-  WaveletRowsBuilder builder(static_cast<uint32_t>(filled), columns, coefficients,
-                             squared_weights(columns, params.choice));
-  const auto blocks_of = [&](std::size_t group, const auto& f) {
-    for (std::size_t b = kGroup * group; b < std::min(builder.blocks(), kGroup * (group + 1)); ++b) f(b);
-  };
-  const auto pack = [&](std::size_t group, std::string& bytes) {
-    blocks_of(group, [&](std::size_t b) { builder.pack(b, bytes); });
-  };
-  const auto unpack = [&](std::size_t group, std::string_view& bytes) {
-    blocks_of(group, [&](std::size_t b) { builder.unpack(b, bytes); });
-  };
-  const std::size_t groups = (builder.blocks() + kGroup - 1) / kGroup;
-  for_blocks(groups, stage, work, [&](std::size_t group) {
-    if (state != nullptr)
-      if (std::string_view bytes = state->find(group); !bytes.empty()) return unpack(group, bytes);
-    WaveletRowsBuilder::Scratch scratch(builder);
-    std::vector<std::vector<SparseEntry>> rows;
-    blocks_of(group, [&](std::size_t b) {
-      work.progress.check();
-      rows.resize(std::min<std::size_t>(kBlock, count - kBlock * b));
-      for (std::size_t r = 0; r < rows.size(); ++r) make(kBlock * b + r, rows[r]);
-      builder.set_block(b, rows, scratch);
-    });
-    if (state == nullptr) return;
-    std::string bytes;
-    pack(group, bytes);
-    state->put(group, bytes);
-  });
-  work.ranks.share(groups, pack, unpack);
-  auto made = builder.finish();
-  out = {count, kBlock, made.rows, {}, {}};
-  op.owners.push_back(made.owner);
+  return {static_cast<std::size_t>(coefficients), squared_weights(columns, params.choice), RowValues::codes};
 }
 
 /// M: one product of all bounces.
@@ -61,8 +21,8 @@ void make_photon_bounces(const TracedScene& traced, const TransferParams& params
   const CloudPhotons photons(traced, *start.cloud, start.square, static_cast<std::size_t>(params.photons),
                              params.seed, work.progress);
   const auto albedo = std::make_shared<std::vector<Rgbx>>(slots);
-  make_plain_rows(slots, static_cast<std::size_t>(params.bounce_coefficients), params, "bounce rows", work,
-                  nullptr, op, op.first, [&](std::size_t slot, std::vector<SparseEntry>& row) {
+  make_plain_rows(slots, plain(params, params.bounce_coefficients), "bounce rows", work, nullptr, op,
+                  op.first, [&](std::size_t slot, std::vector<SparseEntry>& row) {
                     const uint32_t sample = start.square.samples[slot];
                     const SurfacePoint at =
                         start.cloud->point(sample, start.cloud->footprint(sample), Vec2(0.5f));
@@ -70,13 +30,13 @@ void make_photon_bounces(const TracedScene& traced, const TransferParams& params
                               out = start.cloud->albedo(sample) * tint;
                     (*albedo)[slot] = {out.r, out.g, out.b, 0};
                   });
-  work.ranks.share(std::span(*albedo), kGroup * kBlock);
+  work.ranks.share(std::span(*albedo), kRowsAtATime);
   op.albedo = *albedo;
   op.owners.push_back(albedo);
   op.sweeps = 1;
   // Nothing is reflected after that.
   auto none = WaveletRowsBuilder(slots, slots, 0, {}).finish();
-  op.bounce = {slots, kBlock, none.rows, {}, {}};
+  op.bounce = {slots, ClusterRows::kLanes, none.rows, {}, {}};
   op.owners.push_back(none.owner);
 }
 
@@ -110,7 +70,7 @@ void PointFactors::row(const SurfacePoint& at, std::vector<SparseEntry>& row) co
 Operator make_chapter_operator(const TracedScene& traced, const RelightReceivers& receivers,
                                const TransferParams& params, const std::string& scene,
                                const TransferWork& work) {
-  OperatorStart start(traced, receivers, params, kBlock, work.progress);
+  OperatorStart start(traced, receivers, params, ClusterRows::kLanes, work.progress);
   Operator op = std::move(start.op);
   op.scene = scene;
   make_photon_bounces(traced, params, start, work, op);
@@ -118,8 +78,8 @@ Operator make_chapter_operator(const TracedScene& traced, const RelightReceivers
   for (const uint32_t sample : start.square.samples)
     areas.push_back(start.cloud->area(sample) / static_cast<float>(start.square.of(sample).size()));
   const PointFactors factors(traced.tracer, op, std::move(areas));
-  make_plain_rows(static_cast<uint32_t>(start.order.size()), static_cast<std::size_t>(params.coefficients),
-                  params, "gather rows", work, work.state, op, op.gather,
+  make_plain_rows(static_cast<uint32_t>(start.order.size()), plain(params, params.coefficients),
+                  "gather rows", work, work.state, op, op.gather,
                   [&](std::size_t i, std::vector<SparseEntry>& row) { factors.row(start.middle(i), row); });
   return op;
 }

@@ -15,7 +15,7 @@ namespace {
 // Slots that share a basis: for direct light, which differs from one to the next, and for what was reflected
 // and is even. The latter's number of bases is the order of FoldedBounces' matrix.
 constexpr uint32_t kFirstCluster = 256, kBounceCluster = 2048;
-constexpr uint32_t kGatherStream = 0x66696e61u, kBounceStream = 0x626f756eu;
+constexpr uint32_t kBounceStream = 0x626f756eu;
 constexpr uint32_t kSlotRays = 32;
 constexpr std::size_t kRowBlock = 256;
 
@@ -227,17 +227,13 @@ void OperatorParts::fit_gather(const TransferWork& work, Operator& op) {
   const auto rays = static_cast<uint32_t>(params_.rays);
   const auto cluster = static_cast<std::size_t>(params_.cluster);
   const std::size_t count = start_.order.size();
-  const auto receiver = [&](std::size_t i, auto&& f) {
-    const uint32_t own = start_.order[i];
-    const Footprint footprint = receivers_.source.footprint(own);
-    const uint32_t stream = mix32(mix32(params_.seed, kGatherStream), receivers_.places[own]);
-    return f([&](uint32_t r) { return footprint.sample(sobol_pair(r, 0, stream)); }, stream);
-  };
+  const auto rays_of = [&](std::size_t i) { return ReceiverRays(receivers_, start_.order[i], params_.seed); };
   const auto changed = [&](std::size_t c) {
-    for (std::size_t i = cluster * c; i < std::min(count, cluster * (c + 1)); ++i)
-      if (receivers_changed_[i] != 0 || receiver_wanders_[i] != 0 ||
-          receiver(i, [&](const auto& from, uint32_t stream) { return may_meet(from, rays, stream); }))
-        return true;
+    for (std::size_t i = cluster * c; i < std::min(count, cluster * (c + 1)); ++i) {
+      if (receivers_changed_[i] != 0 || receiver_wanders_[i] != 0) return true;
+      const ReceiverRays from = rays_of(i);
+      if (may_meet(from, rays, from.stream)) return true;
+    }
     return false;
   };
   std::atomic<std::size_t> shot = 0;
@@ -249,10 +245,9 @@ void OperatorParts::fit_gather(const TransferWork& work, Operator& op) {
         Rows rows(std::min(cluster, count - cluster * c));
         for (std::size_t k = 0; k < rows.size(); ++k) {
           if (k % 64 == 0) work.progress.check();
-          receiver(cluster * c + k, [&](const auto& from, uint32_t stream) {
-            maker.start();
-            for (uint32_t r = 0; r < rays; ++r) maker.shoot(from(r), r, stream);
-          });
+          const ReceiverRays from = rays_of(cluster * c + k);
+          maker.start();
+          for (uint32_t r = 0; r < rays; ++r) maker.shoot(from(r), r, from.stream);
           maker.finish(rays, rows[k]);
           receiver_wanders_[cluster * c + k] = maker.wandered() ? 1 : 0;
         }

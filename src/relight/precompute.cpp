@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "relight/chapter_operator.h"
+#include "relight/exact_operator.h"
 #include "relight/operator_parts.h"
 
 namespace sconce {
@@ -39,6 +40,8 @@ Operator make_operator(const TracedScene& traced, const RelightReceivers& receiv
                      "one for each material: " + std::to_string(traced.scene.materials.size()));
   if (params.method == TransferMethod::chapter)
     return make_chapter_operator(traced, receivers, params, scene, work);
+  if (params.method == TransferMethod::exact)
+    return make_exact_operator(traced, receivers, params, scene, work);
   OperatorParts parts(traced, receivers, params, scene, work);
   return parts.make(work);
 }

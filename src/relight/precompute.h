@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a direct-to-indirect operator: cloud, rows of the final gather F and of the cloud's own kernel K by
 // cosine-distributed rays that end on the cloud (methods.md 2.4), both fitted to
-// the light of lamps at many places. Or as system C's chapter does, to compare with: chapter_operator.h.
+// the light of lamps at many places. To compare with: as system C's chapter does (chapter_operator.h); all of
+// these rays without compression (exact_operator.h).
 #pragma once
 
 #include "relight/receivers.h"
@@ -9,7 +10,7 @@
 
 namespace sconce {
 
-enum class TransferMethod : uint8_t { fitted, chapter };
+enum class TransferMethod : uint8_t { fitted, chapter, exact };
 
 struct TransferParams {
   TransferMethod method = TransferMethod::fitted;

@@ -5,9 +5,21 @@
 
 #include "gather/row_rays.h"
 #include "relight/cloud_square.h"
+#include "relight/receivers.h"
 #include "transfer/sparse_rows.h"
 
 namespace sconce {
+
+/// Where the rays of a receiver's row of F start.
+struct ReceiverRays {
+  Footprint footprint;
+  uint32_t stream;
+
+  ReceiverRays(const RelightReceivers& receivers, uint32_t receiver, uint32_t seed)
+      : footprint(receivers.source.footprint(receiver)),
+        stream(mix32(mix32(seed, 0x66696e61u), receivers.places[receiver])) {}
+  SurfacePoint operator()(uint32_t r) const { return footprint.sample(sobol_pair(r, 0, stream)); }
+};
 
 /// Hits of one receiver's rays as a sparse row.
 class RowMaker {

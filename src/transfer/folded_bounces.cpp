@@ -14,7 +14,7 @@ using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 }  // namespace
 
 FoldedBounces::FoldedBounces(const Operator& op)
-    : op_(op), rank_(op.sweeps > 1 ? ClusterRows::kRank * op.bounce.clusters() : 0) {
+    : op_(op), rank_(op.sweeps > 1 && !op.bounce.plain() ? ClusterRows::kRank * op.bounce.clusters() : 0) {
   if (rank_ == 0) return;
   const ClusterRows& k = op.bounce;
   const auto n = static_cast<Eigen::Index>(rank_);
@@ -46,11 +46,10 @@ FoldedBounces::FoldedBounces(const Operator& op)
 }
 
 void FoldedBounces::apply(std::span<Rgbx> exitance) const {
+  if (rank_ == 0) return bounce_light(op_, exitance);
   haar_forward(exitance);
-  if (op_.sweeps == 0) return;
   // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
   std::vector<Rgbx> once = reflected_once(op_, exitance);
-  if (rank_ == 0) return add_reflected(exitance, once);
   std::vector<Rgbx> sum = once;
   haar_forward(once);
   std::vector<Rgb> seen(rank_), all(rank_);

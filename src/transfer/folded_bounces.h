@@ -9,7 +9,8 @@ namespace sconce {
 /// All bounces of an operator in one step. K has few basis rows: K = W B, weights times basis, so that the
 /// sum of its powers is that of a small matrix C = B rho W between basis rows, and that sum is (I - C)^-1.
 /// Costs a second to make and then a product with a matrix of a few hundred rows instead of one for every
-/// sweep. Equals bounce_light() after as many sweeps as change nothing.
+/// sweep. Equals bounce_light() after as many sweeps as change nothing; is bounce_light() where K's rows are
+/// plain, as many basis rows as nodes.
 class FoldedBounces {
  public:
   /// @param op  must outlive it

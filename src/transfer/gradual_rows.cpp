@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "transfer/quantise.h"
 
 namespace sconce {
 
@@ -58,8 +57,7 @@ GradualRows::GradualRows(const ClusterRows& rows)
     for (uint32_t k = rows.basis.first[c]; k < rows.basis.first[c + 1]; ++k) {
       double sum = 0;
       for (std::size_t j = 0; j < kRank; ++j)
-        sum += weights[j] * static_cast<double>(dequantise(rows.basis.codes[kRank * std::size_t{k} + j],
-                                                           rows.basis.scales[kRank * c + j]));
+        sum += weights[j] * static_cast<double>(rows.basis.value(c, k, j));
       means_[k] = static_cast<float>(sum);
     }
   });

@@ -126,7 +126,29 @@ namespace sconce {
 HWY_EXPORT(multiply_blocks);
 HWY_EXPORT(combine_groups);
 
+namespace {
+
+/// Light and dark coefficients cancel, so that sums of what is exact are double.
+void multiply_exactly(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out) {
+  constexpr std::size_t kBlock = WaveletRows::kBlock;
+  parallel_for(rows.rows, 64, [&](std::size_t row) {
+    const std::size_t block = row / kBlock;
+    double sums[3];
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[c] = static_cast<double>(rows.means[row]) * static_cast<double>(light[0][c]);
+    for (std::size_t k = rows.first[block]; k < rows.first[block + 1]; ++k) {
+      const auto value = static_cast<double>(rows.values[kBlock * k + row % kBlock]);
+      const Rgbx& l = light[rows.indices[k]];
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += value * static_cast<double>(l[c]);
+    }
+    out[row] = Rgb(static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2]));
+  });
+}
+
+}  // namespace
+
 void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out, Zeros zeros) {
+  if (!rows.values.empty()) return multiply_exactly(rows, light, out);
   std::vector<uint8_t> lit;
   if (zeros == Zeros::skip) {
     lit.resize(light.size());

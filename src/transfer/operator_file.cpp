@@ -2,6 +2,7 @@
 // docs/operator-format.md
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <new>
 
 #include "core/error.h"
@@ -58,8 +59,18 @@ void for_each_section(Op& op, F&& f) {
     f(rows->scales);
   }
   f(op.albedo);
+  for (auto* rows : {&op.gather.basis, &op.first.basis, &op.bounce.basis}) f(rows->values);
 }
-constexpr uint32_t kSections = 25;
+constexpr uint32_t kLeastSections = 25, kMostSections = 28;  ///< empty ones at the end are left out
+
+uint32_t count_sections(const Operator& op) {
+  uint32_t count = 0, filled = kLeastSections;
+  for_each_section(op, [&](const auto& array) {
+    ++count;
+    if (!array.empty()) filled = std::max(filled, count);
+  });
+  return filled;
+}
 
 void put_text(std::string_view text, std::span<char> field) {
   std::memcpy(field.data(), text.data(), std::min(text.size(), field.size()));
@@ -73,7 +84,8 @@ bool fits(const WaveletRows& rows) {
   const std::size_t blocks = (std::size_t{rows.rows} + WaveletRows::kBlock - 1) / WaveletRows::kBlock;
   if (!is_power_of_four(rows.columns) || rows.columns > 65536 || rows.first.size() != blocks + 1 ||
       rows.first[0] != 0 || rows.first.back() != rows.indices.size() ||
-      rows.codes.size() != WaveletRows::kBlock * rows.indices.size() ||
+      (rows.values.empty() ? rows.codes.size() : rows.values.size()) !=
+          WaveletRows::kBlock * rows.indices.size() ||
       rows.scales.size() != WaveletRows::kBlock * blocks || rows.means.size() != rows.scales.size())
     return false;
   for (std::size_t b = 0; b < blocks; ++b)
@@ -116,21 +128,31 @@ bool finite(std::span<const T> values) {
   return true;
 }
 
-/// A copy that stays whatever becomes of the file: a window may hold it for hours.
+/// A file as it was when it was read: a copy that stays whatever becomes of it (ADR 43).
 class AlignedBytes {
  public:
-  explicit AlignedBytes(std::string_view bytes)
-      : size_(bytes.size()), data_(static_cast<char*>(::operator new(size_ + 1, std::align_val_t(kAlign)))) {
-    std::memcpy(data_, bytes.data(), size_);
+  /// @throws Error
+  explicit AlignedBytes(const std::filesystem::path& path) {
+    std::error_code ec;
+    size_ = std::filesystem::file_size(path, ec);
+    std::ifstream in(path, std::ios::binary);
+    if (ec || !in) {
+      read_file(path);  // says why not
+      throw Error(path.string(), "cannot be read");
+    }
+    data_.reset(static_cast<char*>(::operator new(size_ + 1, std::align_val_t(kAlign), std::nothrow)));
+    if (data_ == nullptr) throw Error(path.string(), "is larger than there is memory");
+    if (!in.read(data_.get(), static_cast<std::streamsize>(size_)))
+      throw Error(path.string(), "changed while it was read");
   }
-  ~AlignedBytes() { ::operator delete(data_, std::align_val_t(kAlign)); }
-  AlignedBytes(const AlignedBytes&) = delete;
-  AlignedBytes& operator=(const AlignedBytes&) = delete;
-  std::string_view bytes() const { return {data_, size_}; }
+  std::string_view bytes() const { return {data_.get(), size_}; }
 
  private:
-  std::size_t size_;
-  char* data_;
+  struct Free {
+    void operator()(char* data) const { ::operator delete(data, std::align_val_t(kAlign)); }
+  };
+  std::size_t size_ = 0;
+  std::unique_ptr<char, Free> data_;
 };
 
 }  // namespace
@@ -153,10 +175,11 @@ void write_operator(const std::filesystem::path& path, const Operator& op) {
   head.slots = op.slots(), head.nodes = op.bounce.rows, head.rows = op.gather.rows;
   head.cluster[0] = op.gather.cluster, head.cluster[1] = op.first.cluster,
   head.cluster[2] = op.bounce.cluster;
-  head.sections = kSections;
-  std::string bytes(sizeof head + kSections * sizeof(Section), '\0');
+  head.sections = count_sections(op);
+  std::string bytes(sizeof head + head.sections * sizeof(Section), '\0');
   std::size_t section = 0;
   for_each_section(op, [&](const auto& array) {
+    if (section == head.sections) return;
     bytes.resize((bytes.size() + kAlign - 1) / kAlign * kAlign);
     const Section entry{bytes.size(), array.size_bytes()};
     bytes.append(reinterpret_cast<const char*>(array.data()), array.size_bytes());
@@ -171,7 +194,7 @@ void write_operator(const std::filesystem::path& path, const Operator& op) {
 
 Operator open_operator(const std::filesystem::path& path, bool check) {
   const std::string where = path.string();
-  const auto file = std::make_shared<const AlignedBytes>(read_file(path));
+  const auto file = std::make_shared<const AlignedBytes>(path);
   const std::string_view bytes = file->bytes();
   Head head{};
   if (bytes.size() < sizeof head || bytes.substr(0, kMagic.size()) != kMagic)
@@ -187,7 +210,8 @@ Operator open_operator(const std::filesystem::path& path, bool check) {
   if (check && hash_hex(bytes.substr(kChecked)) != take_text(head.checksum))
     throw Error(where, "is damaged: its content is not what its checksum says");
   const Error broken(where, "is damaged: its tables do not fit each other");
-  if (head.sections != kSections || head.kind > 1 || bytes.size() < sizeof head + kSections * sizeof(Section))
+  if (head.sections < kLeastSections || head.sections > kMostSections || head.kind > 1 ||
+      bytes.size() < sizeof head + head.sections * sizeof(Section))
     throw broken;
   Operator op;
   op.kind = static_cast<OperatorReceivers>(head.kind);
@@ -207,6 +231,7 @@ Operator open_operator(const std::filesystem::path& path, bool check) {
   }
   std::size_t section = 0;
   for_each_section(op, [&](auto& array) {
+    if (section == head.sections) return;
     using T = typename std::remove_reference_t<decltype(array)>::element_type;
     Section entry{};
     std::memcpy(&entry, bytes.data() + sizeof head + sizeof entry * section++, sizeof entry);

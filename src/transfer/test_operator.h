@@ -51,7 +51,7 @@ inline ClusterRows made_up_rows(uint32_t rows, uint32_t columns, uint32_t cluste
   out.basis = {columns,      static_cast<uint32_t>(ClusterRows::kRank * clusters),
                owned->first, owned->indices,
                owned->codes, owned->scales,
-               owned->means};
+               owned->means, {}};
   owner = owned;
   return out;
 }

@@ -24,30 +24,38 @@ struct WaveletRows {
   std::span<const int8_t> codes;      ///< coefficient x kBlock, quantise.h
   std::span<const float> scales;      ///< per row, filled up: of its codes
   std::span<const float> means;       ///< per row, filled up: coefficient 0, exact
+  std::span<const float> values;      ///< coefficient x kBlock, in place of codes where nothing is quantised
 
   std::size_t blocks() const { return first.empty() ? 0 : first.size() - 1; }
   uint64_t bytes() const {
     return first.size_bytes() + indices.size_bytes() + codes.size_bytes() + scales.size_bytes() +
-           means.size_bytes();
+           means.size_bytes() + values.size_bytes();
   }
   /// Multiplications of a product per row, and channel.
-  double macs_per_row() const { return rows == 0 ? 0 : static_cast<double>(codes.size()) / rows + 1; }
+  double macs_per_row() const {
+    return rows == 0 ? 0 : static_cast<double>(kBlock * indices.size()) / rows + 1;
+  }
+  /// Coefficient k, counted over all blocks, of row r of its block.
+  float value(std::size_t block, std::size_t k, std::size_t r) const;
 };
 
 /// What a product does with coefficients of light that are 0: passing over them pays where most are.
 enum class Zeros : uint8_t { multiply, skip };
 
 /// rows x light, where the light is a transformed square (haar_forward). On the machine's vector units and
-/// threads; the same bits at any number of threads.
+/// threads; the same bits at any number of threads. Of values that are not quantised sums are double.
 /// @param light  columns
 /// @param out    rows
 void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out,
               Zeros zeros = Zeros::multiply);
 
+enum class RowValues : uint8_t { codes, floats };
+
 /// Compresses rows block by block, on any number of threads.
 class WaveletRowsBuilder {
  public:
-  WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients, std::vector<float> squares);
+  WaveletRowsBuilder(uint32_t rows, uint32_t columns, std::size_t coefficients, std::vector<float> squares,
+                     RowValues keep = RowValues::codes);
 
   /// One for each thread at a time.
   class Scratch {
@@ -84,11 +92,13 @@ class WaveletRowsBuilder {
   struct Block {
     std::vector<uint16_t> indices;
     std::vector<int8_t> codes;
+    std::vector<float> values;
     std::array<float, WaveletRows::kBlock> scales{}, means{};
   };
   uint32_t rows_, columns_;
   std::size_t coefficients_;
   std::vector<float> squares_;
+  RowValues keep_;
   std::vector<Block> blocks_;
 };
 
