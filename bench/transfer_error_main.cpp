@@ -24,18 +24,18 @@ class CullingTable {
   void add(const std::vector<Rgbx>& light) {
     ++lamps_;
     std::vector<Rgb> whole(gather_.rows), part(gather_.rows);
-    whole_ms_ += fastest([&] { multiply(gather_, light, whole); });
+    whole_ms_ += fastest([] {}, [&] { multiply(gather_, light, whole); });
     double norm = 0;
     for (const Rgb& e : whole) norm += square(e);
     for (Row& row : rows_) {
       std::vector<Rgbx> left;
       Culling::Report report;
       // Finding them is paid for each time.
-      row.ms += fastest([&] {
-        left = light;
-        report = culling_.apply(row.share, left);
-        multiply(gather_, left, part, Zeros::skip);
-      });
+      row.ms += fastest([&] { left = light; },
+                        [&] {
+                          report = culling_.apply(row.share, left);
+                          multiply(gather_, left, part, Zeros::skip);
+                        });
       double squares = 0;
       for (std::size_t i = 0; i < part.size(); ++i) squares += square(part[i] - whole[i]);
       row.kept += 1 - static_cast<double>(report.culled) / static_cast<double>(report.of);
@@ -56,10 +56,12 @@ class CullingTable {
     double kept = 0, error = 0, bound = 0, ms = 0;
   };
   static double square(const Rgb& e) { return static_cast<double>(e.r * e.r + e.g * e.g + e.b * e.b); }
-  template <class F>
-  static double fastest(const F& f) {
+  /// @param first  before each
+  template <class First, class F>
+  static double fastest(const First& first, const F& f) {
     double least = 1e30;
-    for (int repeat = 0; repeat < 10; ++repeat) {
+    for (int repeat = 0; repeat < 30; ++repeat) {
+      first();
       const auto start = std::chrono::steady_clock::now();
       f();
       least = std::min(least, milliseconds_since(start));

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 
 #include "core/parallel.h"
-#include "transfer/quantise.h"
 
 namespace sconce {
 
@@ -39,8 +38,7 @@ double largest_square(const ClusterRows& rows, std::size_t cluster) {
 Column column(const WaveletRows& basis, std::size_t block, uint32_t k) {
   Column out;
   for (std::size_t r = 0; r < kRank; ++r)
-    out(static_cast<Eigen::Index>(r)) =
-        static_cast<double>(dequantise(basis.codes[kRank * k + r], basis.scales[kRank * block + r]));
+    out(static_cast<Eigen::Index>(r)) = static_cast<double>(basis.value(block, k, r));
   return out;
 }
 
@@ -85,18 +83,33 @@ Culling::Culling(const ClusterRows& rows) {
 }
 
 Culling::Report Culling::apply(float share, std::span<Rgbx> light) const {
+  struct Part {
+    Report report;
+    double squares = 0;
+  };
+  constexpr std::size_t kPart = 4096;
+  std::vector<Part> parts((light.size() + kPart - 1) / kPart);
+  const float least = share * norms_[0] * std::sqrt(square_of(light[0]));
+  parallel_for(parts.size(), 1, [&](std::size_t p) {
+    Part own;
+    for (std::size_t c = std::max<std::size_t>(1, kPart * p); c < std::min(light.size(), kPart * (p + 1));
+         ++c) {
+      if (!(norms_[c] > 0)) continue;
+      ++own.report.of;
+      const float size = norms_[c] * std::sqrt(square_of(light[c]));
+      if (!(size < least)) continue;
+      own.report.bound += static_cast<double>(size);
+      own.squares += static_cast<double>(squares_[c] * square_of(light[c]));
+      ++own.report.culled;
+      light[c] = {};
+    }
+    parts[p] = own;
+  });
   Report report;
   double squares = 0;
-  const float least = share * norms_[0] * std::sqrt(square_of(light[0]));
-  for (std::size_t c = 1; c < light.size(); ++c) {
-    if (!(norms_[c] > 0)) continue;
-    ++report.of;
-    const float size = norms_[c] * std::sqrt(square_of(light[c]));
-    if (!(size < least)) continue;
-    report.bound += static_cast<double>(size);
-    squares += static_cast<double>(squares_[c] * square_of(light[c]));
-    ++report.culled;
-    light[c] = {};
+  for (const Part& part : parts) {
+    report.culled += part.report.culled, report.of += part.report.of, report.bound += part.report.bound;
+    squares += part.squares;
   }
   report.bound = std::min(report.bound, std::sqrt(squares));
   return report;
