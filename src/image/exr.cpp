@@ -99,6 +99,7 @@ Image read_channels(Imf::MultiPartInputFile& file, const std::vector<std::string
 }
 
 Image read_first_part(const std::string& bytes) {
+  check_attributes(bytes);
   ExrInput stream(bytes);
   Imf::MultiPartInputFile file(stream);
   const Imf::Header& header = file.header(0);

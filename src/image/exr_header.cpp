@@ -8,6 +8,7 @@
 #include <ImfTileDescriptionAttribute.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace sconce {
@@ -36,22 +37,52 @@ std::tuple<std::string, int, std::string> channel_key(const std::string& name) {
   return {layer, rank == std::string_view::npos ? 4 : static_cast<int>(rank), leaf};
 }
 
-void check_size(const Imf::Header& header, std::size_t channels, std::size_t file_bytes) {
+// OpenEXR file layout: attributes are name, type, bytes (int32), value; an empty name ends a part's header.
+void check_attributes(std::string_view bytes) {
+  constexpr std::size_t kHead = 8;  // magic, version and flags
+  constexpr uint32_t kManyParts = 0x1000;
+  std::size_t at = kHead;
+  const auto text = [&] {
+    const std::size_t from = std::min(at, bytes.size()), end = bytes.find('\0', from);
+    if (end == std::string_view::npos) throw std::runtime_error("the header is cut short");
+    at = end + 1;
+    return std::string(bytes.substr(from, end - from));
+  };
+  uint32_t flags = 0;
+  if (bytes.size() >= kHead) std::memcpy(&flags, bytes.data() + 4, sizeof flags);
+  do {
+    for (std::string name = text(); !name.empty(); name = text()) {
+      text();  // its type
+      int32_t size = -1;
+      if (bytes.size() - at >= sizeof size) std::memcpy(&size, bytes.data() + at, sizeof size);
+      at = std::min(at + sizeof size, bytes.size());
+      if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - at)
+        throw std::runtime_error("attribute '" + name + "' reaches beyond the file");
+      at += static_cast<std::size_t>(size);
+    }
+  } while ((flags & kManyParts) != 0 && at < bytes.size() && bytes[at] != '\0');
+}
+
+void check_size(const Imf::Header& header, std::size_t channels, std::size_t file_bytes, bool alone) {
   const Imath::Box2i window = header.dataWindow();
+  const auto file = static_cast<double>(file_bytes);
   const int64_t width = int64_t{window.max.x} - window.min.x + 1;
   const int64_t height = int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > (1 << 24) || height > (1 << 24))
     throw std::runtime_error("data window of " + std::to_string(width) + " x " + std::to_string(height));
-  // Deflate reaches 1:1032 on halves, which become floats here.
+  // Deflate reaches 1:1032 on halves, which become floats here; runs and PIZ reach less. Lossy ones make
+  // nearly nothing of black.
+  const Imf::Compression packing = header.compression();
+  const bool lossy = packing == Imf::B44_COMPRESSION || packing == Imf::B44A_COMPRESSION ||
+                     packing == Imf::DWAA_COMPRESSION || packing == Imf::DWAB_COMPRESSION;
   const double bytes =
       4.0 * static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
-  if (bytes > 64e6 + 4096.0 * static_cast<double>(file_bytes))
+  if (bytes > (lossy || !alone ? 64e6 + 4096.0 * file : 64e3 + 2100.0 * file))
     throw std::runtime_error("claims " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels, more than its " + std::to_string(file_bytes) + " bytes can hold");
   if (!header.hasTileDescription()) return;
   const Imf::TileDescription& tile = header.tileDescription();
-  if (4.0 * tile.xSize * tile.ySize * static_cast<double>(channels) >
-      256e6 + 4096.0 * static_cast<double>(file_bytes))
+  if (4.0 * tile.xSize * tile.ySize * static_cast<double>(channels) > 256e6 + 4096.0 * file)
     throw std::runtime_error("tiles of " + std::to_string(tile.xSize) + " x " + std::to_string(tile.ySize));
 }
 

@@ -43,7 +43,7 @@ std::vector<Wanted> wanted_channels(const Imf::MultiPartInputFile& file, std::si
       continue;
     }
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++seen;
-    check_size(header, seen, file_bytes);
+    check_size(header, seen, file_bytes, false);
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
       std::string name = c.name();
       if (!part.empty() && !name.starts_with(part + ".")) name.insert(0, part + ".");
@@ -75,6 +75,7 @@ Imf::Slice slice(const Image& image, std::size_t channel, bool integer, const Im
 }
 
 ExrParts read(const std::string& bytes) {
+  check_attributes(bytes);
   ExrInput stream(bytes);
   Imf::MultiPartInputFile file(stream);
   ExrParts out;
@@ -93,7 +94,7 @@ ExrParts read(const std::string& bytes) {
   // Windows far apart make a box that no part fills.
   Imf::Header whole = first;
   whole.dataWindow() = box;
-  check_size(whole, names.size(), bytes.size());
+  check_size(whole, names.size(), bytes.size(), false);
   out.image = Image(out.data.width, out.data.height, names);
   read_attributes(first, out.image);
   out.attributes = std::make_shared<ExrAttributes>(ExrAttributes{first});

@@ -11,7 +11,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/test_data.h"
+#include "image/exr.h"
 #include "image/io.h"
 #include "image/metrics.h"
 #include "image/primaries.h"
@@ -143,6 +145,42 @@ TEST_F(Exr, CutFilesAreErrorsAtEveryLength) {
   std::ofstream(folder / "text.exr") << "no picture";
   EXPECT_THROW(read_exr(folder / "text.exr"), NotMyFormat);
   EXPECT_THROW(read_exr(folder / "absent.exr"), Error);
+}
+
+// Deflate makes at most 1032 bytes of one. Black comes near that; what claims more is refused before memory
+// is asked for it.
+TEST_F(Exr, SmallFilesHoldNoLargePictures) {
+  write_exr(folder / "black.exr", Image::rgb(2048, 512), PixelType::half);
+  EXPECT_LT(fs::file_size(folder / "black.exr"), 2048u * 512 * 3 * 2 / 700);
+  EXPECT_EQ(read_exr(folder / "black.exr").width, 2048);
+  write_exr(folder / "small.exr", ramp(40, 40, {"R", "G", "B"}), PixelType::half);
+  std::string bytes = read_file(folder / "small.exr");
+  const int32_t right = 1999, bottom = 1999;  // 48 MB
+  const std::size_t window = bytes.find("dataWindow") + sizeof "dataWindow" + sizeof "box2i" + 4;
+  std::memcpy(&bytes[window + 8], &right, 4), std::memcpy(&bytes[window + 12], &bottom, 4);
+  try {
+    decode_exr(bytes, "small.exr");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("claims 2000 x 2000 pixels"), std::string::npos) << e.what();
+  }
+}
+
+// OpenEXR would reserve what an attribute claims; 2 GB here.
+TEST_F(Exr, AttributesEndWithinTheFile) {
+  Image image = ramp(4, 4, {"R", "G", "B"});
+  image.text["note"] = "text";
+  write_exr(folder / "note.exr", image, PixelType::half);
+  std::string bytes = read_file(folder / "note.exr");
+  const std::size_t at = bytes.find(std::string("note\0string", 11)) + 12;
+  ASSERT_EQ(bytes[at], 4);
+  bytes[at + 3] = 0x7f;
+  try {
+    decode_exr(bytes, "note.exr");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("'note' reaches beyond the file"), std::string::npos) << e.what();
+  }
 }
 
 TEST(ExrData, EveryFileOfTheCollectionsIsRead) {

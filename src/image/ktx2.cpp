@@ -22,6 +22,7 @@ constexpr std::string_view kIdentifier{"\xabKTX 20\xbb\r\n\x1a\n", 12};
 constexpr uint32_t kZlib = 3;
 constexpr std::size_t kHeaderBytes = 80, kLevelBytes = 24;
 constexpr int kLargestSide = 1 << 16, kMostLayers = 1 << 12;
+constexpr std::size_t kBestDeflate = 1032;  // zlib's own figure of bytes that one byte can become
 
 struct Shape {
   KtxFormat format;
@@ -149,6 +150,10 @@ Ktx2 read_ktx2(const std::filesystem::path& path) {
   out.text = parse_key_values(slice(file, h.text_at, h.text_bytes, where), where);
   if (level.whole_bytes != out.bytes()) throw Error(where, "is damaged: its size does not fit its format");
   const std::string_view packed = slice(file, level.at, level.bytes, where);
+  if (out.bytes() / kBestDeflate > packed.size())
+    throw Error(where, "is damaged: it claims " + std::to_string(out.bytes()) +
+                           " bytes of texels, more than " + std::to_string(packed.size()) +
+                           " packed bytes can hold");
   out.data.resize(out.bytes());
   uLongf unpacked = out.data.size();
   if (uncompress(reinterpret_cast<Bytef*>(out.data.data()), &unpacked,

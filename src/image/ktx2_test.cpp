@@ -97,6 +97,12 @@ TEST_F(Ktx2File, DamageIsNamed) {
   bad = good;
   bad[23] = 127;
   expect_error(bad, "says it is");
+  bad = good;  // 65536 x 65536 x 4096 texels are refused before memory is asked for them
+  const uint32_t side = 1 << 16, layers = 1 << 12;
+  const uint64_t whole = uint64_t{side} * side * layers * 4;
+  std::memcpy(&bad[20], &side, 4), std::memcpy(&bad[24], &side, 4), std::memcpy(&bad[32], &layers, 4);
+  std::memcpy(&bad[96], &whole, 8);
+  expect_error(bad, "can hold");
 }
 
 }  // namespace

@@ -38,9 +38,10 @@ bool get(std::FILE* file, T& value) {
   return std::fread(&value, sizeof value, 1, file) == 1;
 }
 
-bool get(std::FILE* file, std::string& s) {
+/// @param most  bytes that the whole file has
+bool get(std::FILE* file, std::string& s, uint64_t most) {
   uint64_t size = 0;
-  if (!get(file, size) || size > (1u << 26)) return false;
+  if (!get(file, size) || size > most) return false;
   s.resize(size);
   return size == 0 || std::fread(s.data(), size, 1, file) == 1;
 }
@@ -69,9 +70,6 @@ BakeState BakeState::create(const std::filesystem::path& path, const BakeHeader&
   if (std::fwrite(head.data(), head.size(), 1, state.file_) != 1 || std::fflush(state.file_) != 0)
     fail(path, "cannot be written");
   beside.commit();
-  const std::size_t tiles = (header.receivers + header.tile_size - 1) / header.tile_size;
-  state.offsets_.resize(tiles);
-  state.made_with_.resize(tiles);
   return state;
 }
 
@@ -84,20 +82,17 @@ BakeState BakeState::open(const std::filesystem::path& path, bool append) {
   BakeHeader& h = state.header_;
   if (!get(state.file_, magic) || std::memcmp(magic, kMagic, sizeof kMagic) != 0)
     throw Error(path.string(), "is not the state of a bake by this version");
-  if (!get(state.file_, h.hash) || !get(state.file_, h.isa) || !get(state.file_, h.job) ||
+  const uint64_t size = std::filesystem::file_size(path);
+  if (!get(state.file_, h.hash, size) || !get(state.file_, h.isa, size) || !get(state.file_, h.job, size) ||
       !get(state.file_, h.layers) || !get(state.file_, h.receivers) || !get(state.file_, h.tile_size) ||
       h.tile_size == 0 || h.receivers > kMostTiles * h.tile_size)
     throw Error(path.string(), "the header is damaged");
-  const std::size_t tiles = (h.receivers + h.tile_size - 1) / h.tile_size;
-  state.offsets_.resize(tiles);
-  state.made_with_.resize(tiles);
-  state.scan(append);
+  state.scan(size, append);
   return state;
 }
 
-void BakeState::scan(bool repair) {
+void BakeState::scan(uint64_t size, bool repair) {
   std::vector<GroupValue> values;
-  const uint64_t size = std::filesystem::file_size(path_);
   for (;;) {
     const long start = std::ftell(file_);
     RecordHead head;
@@ -118,8 +113,7 @@ void BakeState::scan(bool repair) {
       std::fseek(file_, start, SEEK_SET);
       return;
     }
-    offsets_[head.tile] = static_cast<uint64_t>(start) + sizeof head + made_with.size();
-    made_with_[head.tile] = made_with;
+    records_[head.tile] = {static_cast<uint64_t>(start) + sizeof head + made_with.size(), made_with};
   }
 }
 
@@ -127,11 +121,24 @@ BakeState::BakeState(BakeState&& other) noexcept
     : path_(std::move(other.path_)),
       header_(std::move(other.header_)),
       file_(std::exchange(other.file_, nullptr)),
-      offsets_(std::move(other.offsets_)),
-      made_with_(std::move(other.made_with_)) {}
+      records_(std::move(other.records_)) {}
 
 BakeState::~BakeState() {
   if (file_ != nullptr) std::fclose(file_);
+}
+
+std::size_t BakeState::tiles() const {
+  return (header_.receivers + header_.tile_size - 1) / header_.tile_size;
+}
+
+bool BakeState::has(std::size_t tile) const {
+  const std::lock_guard lock(mutex_);
+  return records_.contains(tile);
+}
+
+std::string BakeState::made_with(std::size_t tile) const {
+  const std::lock_guard lock(mutex_);
+  return records_.at(tile).made_with;
 }
 
 std::size_t BakeState::receivers_of(std::size_t tile) const {
@@ -150,16 +157,17 @@ void BakeState::append(std::size_t tile, const std::string& made_with, std::span
                   std::fwrite(values.data(), sizeof(GroupValue), values.size(), file_) == values.size() &&
                   std::fflush(file_) == 0;
   if (!ok) fail(path_, "cannot be written");
-  offsets_[tile] = static_cast<uint64_t>(start) + sizeof head + made_with.size();
-  made_with_[tile] = made_with;
+  records_[tile] = {static_cast<uint64_t>(start) + sizeof head + made_with.size(), made_with};
 }
 
 std::vector<GroupValue> BakeState::read(std::size_t tile, uint32_t layer) const {
-  const std::size_t count = receivers_of(tile);
-  std::vector<GroupValue> values(count);
   const std::lock_guard lock(mutex_);
-  std::fseek(file_, static_cast<long>(offsets_[tile] + layer * count * sizeof(GroupValue)), SEEK_SET);
-  if (offsets_[tile] == 0 || std::fread(values.data(), sizeof(GroupValue), count, file_) != count)
+  const auto record = records_.find(tile);
+  if (record == records_.end()) throw Error(path_.string(), "cannot be read");
+  std::vector<GroupValue> values(receivers_of(tile));
+  const uint64_t values_at = record->second.values_at + layer * values.size() * sizeof(GroupValue);
+  std::fseek(file_, static_cast<long>(values_at), SEEK_SET);
+  if (std::fread(values.data(), sizeof(GroupValue), values.size(), file_) != values.size())
     throw Error(path_.string(), "cannot be read");
   return values;
 }

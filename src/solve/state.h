@@ -9,6 +9,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,10 +42,12 @@ class BakeState {
 
   const BakeHeader& header() const { return header_; }
   const std::filesystem::path& path() const { return path_; }
-  std::size_t tiles() const { return offsets_.size(); }
-  bool has(std::size_t tile) const { return offsets_[tile] != 0; }
+  std::size_t tiles() const;
+  /// Thread-safe, as made_with().
+  bool has(std::size_t tile) const;
   /// Options the tile's record was made with (samples, noise); a record with others must be made again.
-  const std::string& made_with(std::size_t tile) const { return made_with_[tile]; }
+  /// @param tile  one that it has
+  std::string made_with(std::size_t tile) const;
 
   /// Appends and flushes a tile's record, values[layer * count + i]. Thread-safe. @throws Error (disk full)
   void append(std::size_t tile, const std::string& made_with, std::span<const GroupValue> values);
@@ -54,14 +57,19 @@ class BakeState {
 
  private:
   BakeState() = default;
-  void scan(bool repair);
+  /// @param size  of the file, bytes
+  void scan(uint64_t size, bool repair);
 
   std::filesystem::path path_;
   BakeHeader header_;
   std::FILE* file_ = nullptr;
   mutable std::mutex mutex_;
-  std::vector<uint64_t> offsets_;  ///< of the values, 0 = none
-  std::vector<std::string> made_with_;
+  struct Record {
+    uint64_t values_at = 0;  ///< in the file
+    std::string made_with;
+  };
+  std::unordered_map<std::size_t, Record>
+      records_;  // of finished tiles only: a header may promise any number
 };
 
 }  // namespace sconce

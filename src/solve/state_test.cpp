@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solve/state.h"
 
+#include <sys/resource.h>
+
 #include <cstring>
 
 #include "core/error.h"
@@ -62,6 +64,23 @@ TEST(BakeState, DamageIsAnErrorOrFewerTiles) {
   std::memcpy(&large[receivers + 16], &first, sizeof first);
   std::memcpy(&large[receivers + 24], &values, sizeof values);
   EXPECT_EQ(BakeState::open(folder.write("b.state", large), true).has(0), false);
+}
+
+// 2^24 tiles, none finished; a slot for each would be 600 MB.
+TEST(BakeState, TilesToComeReserveNothing) {
+  const TemporaryFolder folder;
+  const auto kilobytes = [] {
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    return use.ru_maxrss;
+  };
+  const long before = kilobytes();
+  const auto path = folder / "a.state";
+  BakeState::create(path, {"hash", "isa", 2, uint64_t{1} << 26, 4, "job"});
+  const BakeState state = BakeState::open(path, true);
+  EXPECT_EQ(state.tiles(), std::size_t{1} << 24);
+  EXPECT_FALSE(state.has(state.tiles() - 1));
+  EXPECT_LT(kilobytes() - before, 100'000);
 }
 
 }  // namespace
