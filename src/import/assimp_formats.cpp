@@ -3,6 +3,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,6 +13,7 @@
 #include "import/assimp_materials.h"
 #include "import/assimp_scene.h"
 #include "import/import.h"
+#include "import/side_table.h"
 
 namespace fs = std::filesystem;
 
@@ -46,6 +48,27 @@ Mat4 upright(const aiScene& read) {
   return Mat4(1);
 }
 
+bool side_file_has_unit(const fs::path& path) {
+  const auto side = side_file_of(path);
+  if (!side) return false;
+  const SideNode root = parse_side_file(*side);
+  const SideNode* whole = root.find("scene");
+  return whole != nullptr && whole->find("unit") != nullptr;
+}
+
+std::string assumed_metres(const fs::path& path, std::string_view format, const Scene& scene) {
+  Bounds bounds;
+  for (const Instance& instance : scene.instances)
+    for (const Vec3& p : scene[instance.mesh].positions)
+      bounds.add(Vec3(instance.transform * glm::vec4(p, 1)));
+  const Vec3 size = bounds.empty() ? Vec3(0) : bounds.hi - bounds.lo;
+  return fmt::format(
+      "{}: {} has no units: its {:.4g} x {:.4g} x {:.4g} are taken as metres; [scene] unit in {} says "
+      "otherwise (mm, cm, m, inch, foot)",
+      path.string(), format, size.x, size.y, size.z,
+      fs::path(path).replace_extension(".toml").filename().string());
+}
+
 }  // namespace
 
 Scene import_assimp(const fs::path& path, const Progress& progress) {
@@ -53,9 +76,9 @@ Scene import_assimp(const fs::path& path, const Progress& progress) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene& read = run_assimp(importer, path, format.name, aiProcess_GlobalScale);
-  if (!format.has_units)
-    progress.warn(path.string() + ": " + std::string(format.name) + " has no units; [scene] of the side file gives them, else they are metres");
-  return read_assimp(read, path, upright(read), progress);
+  Scene scene = read_assimp(read, path, upright(read), progress);
+  if (!format.has_units && !side_file_has_unit(path)) progress.warn(assumed_metres(path, format.name, scene));
+  return scene;
 }
 
 std::vector<fs::path> assimp_files(const fs::path& path) {

@@ -28,7 +28,7 @@ TEST(AssimpFormats, StlAndPlyAreTriangles) {
                    w.progress);
   ASSERT_EQ(stl.instances.size(), 1u);
   EXPECT_EQ(stl.meshes.at(0).triangles.size(), 1u);
-  EXPECT_TRUE(w.any("STL has no units"));
+  EXPECT_TRUE(w.any("STL has no units: its 1000 x 1000 x 0 are taken as metres; [scene] unit in a.toml"));
   const Scene ply = import_scene(folder.write(
       "a.ply",
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
@@ -44,7 +44,9 @@ TEST(AssimpFormats, UnitAndUpOfTheSideFile) {
                    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\n"
                    "vertex 0 0 2000\nendloop\nendfacet\nendsolid a\n");
   folder.write("a.toml", "[scene]\nunit = \"mm\"\nup = \"z\"\n");
-  const Bounds bounds = make_world(import_scene(path)).bounds;
+  Warnings w;
+  const Bounds bounds = make_world(import_scene(path, w.progress)).bounds;
+  EXPECT_FALSE(w.any("no units"));
   EXPECT_NEAR(bounds.hi.x, 1, 1e-6);
   EXPECT_NEAR(bounds.hi.y, 2, 1e-6);
   EXPECT_NEAR(bounds.hi.z, 0, 1e-6);

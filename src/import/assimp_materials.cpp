@@ -152,6 +152,23 @@ void AssimpMaterials::add(const aiMaterial& m) {
   scene_.materials.push_back(std::move(out));
 }
 
+void AssimpMaterials::drop_unused_textures() {
+  std::vector<Id<Texture>> moved(scene_.textures.size());
+  std::vector<Texture> kept;
+  for (Material& m : scene_.materials)
+    for (TextureUse* use : {&m.base_color_texture, &m.emission_texture}) {
+      if (!use->texture) continue;
+      Id<Texture>& to = moved[use->texture.value];
+      if (!to) {
+        to = Id<Texture>(kept.size());
+        kept.push_back(std::move(scene_.textures[use->texture.value]));
+      }
+      use->texture = to;
+    }
+  scene_.textures = std::move(kept);
+  known_.clear();
+}
+
 std::vector<fs::path> texture_files(const fs::path& file, const aiScene& read) {
   std::set<fs::path> out;
   for (unsigned i = 0; i < read.mNumMaterials; ++i)

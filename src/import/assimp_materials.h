@@ -26,6 +26,8 @@ class AssimpMaterials {
       : file_(file), read_(read), scene_(scene), progress_(progress) {}
 
   void add(const aiMaterial& material);
+  /// Maps that are seen in combined textures only. After the last add().
+  void drop_unused_textures();
 
  private:
   Id<Texture> texture(const std::string& name);

@@ -85,6 +85,7 @@ Scene read_assimp(const aiScene& read, const std::filesystem::path& file, const 
   scene.name = file.stem().string();
   AssimpMaterials materials(file, read, scene, progress);
   for (unsigned i = 0; i < read.mNumMaterials; ++i) materials.add(*read.mMaterials[i]);
+  materials.drop_unused_textures();
   std::vector<Id<Mesh>> meshes;
   for (unsigned i = 0; i < read.mNumMeshes; ++i) {
     progress.check();

@@ -91,6 +91,7 @@ TEST(Obj, OpacityMapsCutOut) {
             (std::vector<unsigned char>{255, 255, 255, 128, 255, 255, 255, 0}));
   EXPECT_EQ(material("lost").alpha_mode, Material::Alpha::opaque);
   EXPECT_TRUE(w.any("gone.png is left out"));
+  EXPECT_EQ(scene.textures.size(), 2u) << "maps that nothing shows are not kept beside the combined ones";
   EXPECT_EQ(scene_files(path).size(), 4u);  // what a bake's hash is of
 }
 
