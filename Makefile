@@ -64,7 +64,7 @@ robustness: build ## broken files of other people's test suites: docs/robustness
 	ninja -C $(BUILD) robustness
 	$(BUILD)/tests/robustness $(or $(SCONCE_TEST_DATA),../shared/data) docs/robustness.md $(BUILD)/sconce build/dev/sconce
 
-# Reads broken files until RUNS inputs per reader are through; TARGETS="gltf obj" takes some of them (tests/fuzz).
+# Reads broken files until RUNS inputs per reader are through, those of earlier runs included; TARGETS="gltf obj" takes some (tests/fuzz).
 fuzz: build ## RUNS=1000000 made-up inputs to every reader (clang): bench/results/fuzz.md
 	@tools/setup.sh dev
 	cmake --preset fuzz
