@@ -9,11 +9,14 @@ namespace {
 
 class PathSolver final : public Solver {
  public:
-  PathSolver(const SolveContext& context, const BakeParams& params) : context_(context), params_(params) {}
+  PathSolver(const SolveContext& context, const BakeParams& params)
+      : context_(context),
+        params_(params),
+        usual_(usual_light(context.world, context.tracer, context.lamps)) {}
 
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
     PathKernel<Tracer> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
-                              params_.bounces, context_.wanted);
+                              params_.bounces, context_.wanted, {}, usual_);
     solve_receiver(kernel, receiver, params_, out);
   }
   bool set_samples(int samples) override {
@@ -24,6 +27,7 @@ class PathSolver final : public Solver {
  private:
   SolveContext context_;
   BakeParams params_;
+  std::vector<double> usual_;  ///< usual_light()
 };
 
 }  // namespace

@@ -66,6 +66,7 @@ class PhotonSolver final : public Solver {
   PhotonSolver(const SolveContext& context, const BakeParams& params, const Progress& progress)
       : context_(context),
         params_(params),
+        usual_(usual_light(context.world, context.tracer, context.lamps)),
         map_(context,
              // With n bounces a gather ray's end needs light reflected at most n - 1 times, a receiver n
              // times.
@@ -75,7 +76,7 @@ class PhotonSolver final : public Solver {
   void solve(const Footprint& receiver, std::span<GroupValue> out) const override {
     PathKernel<Tracer, MapReader> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
                                          params_.final_gather ? params_.bounces : 0, context_.wanted,
-                                         MapReader(context_.world, map_, params_.bounces));
+                                         MapReader(context_.world, map_, params_.bounces), usual_);
     solve_receiver(kernel, receiver, params_, out);
     if (!params_.final_gather && params_.bounces != 0) add_indirect(receiver, out);
   }
@@ -110,6 +111,7 @@ class PhotonSolver final : public Solver {
 
   SolveContext context_;
   BakeParams params_;
+  std::vector<double> usual_;  ///< usual_light()
   PhotonMap map_;
 };
 

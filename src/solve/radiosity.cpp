@@ -68,7 +68,9 @@ struct RadiosityCache {
 class RadiositySolver final : public Solver {
  public:
   RadiositySolver(const SolveContext& context, const BakeParams& params, const Progress& progress)
-      : context_(context), params_(params) {
+      : context_(context),
+        params_(params),
+        usual_(usual_light(context.world, context.tracer, context.lamps)) {
     if (params.bounces == 0) return;
     CloudParams cloud;
     cloud.seed = params.seed;
@@ -109,7 +111,7 @@ class RadiositySolver final : public Solver {
     cache.first = first_.data();
     cache.second = params_.bounces < 0 ? first_.data() : second_.data();
     PathKernel<Tracer, RadiosityCache> kernel(context_.scene, context_.world, context_.tracer, context_.lamps,
-                                              params_.bounces, context_.wanted, cache);
+                                              params_.bounces, context_.wanted, cache, usual_);
     solve_receiver(kernel, receiver, params_, out);
   }
   bool set_samples(int samples) override {
@@ -149,6 +151,7 @@ class RadiositySolver final : public Solver {
 
   SolveContext context_;
   BakeParams params_;
+  std::vector<double> usual_;           ///< usual_light()
   std::unique_ptr<GatherCloud> cloud_;  ///< null for direct light only
   std::vector<float> direct_;           ///< on its cells
   std::vector<float> first_, second_;   ///< reflected, on its samples
