@@ -259,9 +259,7 @@ TEST_F(NearLight, BakedAndInteractiveAgree) {
     for (const auto& [name, sums] : walls) {
       if (pixels[name] < 200) continue;
       ++seen;
-      // On the red wall red light is the operator's own error, whichever the lamp: 4 % with 1024 slots, 3 % with
-      // 4096.
-      EXPECT_NEAR(sums.second.r / sums.first.r, 1, 0.05) << name << ", " << device;
+      EXPECT_NEAR(sums.second.r / sums.first.r, 1, 0.02) << name << ", " << device;
       EXPECT_NEAR(sums.second.g / sums.first.g, 1, 0.02) << name << ", " << device;
       EXPECT_NEAR(sums.second.b / sums.first.b, 1, 0.02) << name << ", " << device;
     }

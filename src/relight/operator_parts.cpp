@@ -19,11 +19,12 @@ constexpr uint32_t kBounceStream = 0x626f756eu;
 constexpr uint32_t kSlotRays = 32;
 constexpr std::size_t kRowBlock = 256;
 
-/// Transforms of the lights' luminance.
-std::vector<std::vector<float>> transformed_luminance(std::span<const std::vector<Rgbx>> lights) {
+/// Transforms of one channel of each light, in turn for a point and a spot: what luminance holds to be dark,
+/// such as a red wall, is bright in light of its colour.
+std::vector<std::vector<float>> transformed_channels(std::span<const std::vector<Rgbx>> lights) {
   std::vector<std::vector<float>> out(lights.size());
   parallel_for(lights.size(), 1, [&](std::size_t t) {
-    for (const Rgbx& l : lights[t]) out[t].push_back(luminance(Rgb(l[0], l[1], l[2])));
+    for (const Rgbx& l : lights[t]) out[t].push_back(l[t / 2 % 3]);
     haar_forward(out[t]);
   });
   return out;
@@ -201,12 +202,12 @@ void OperatorParts::fit_bounces(const TransferWork& work, Operator& op) {
         });
     if (!params_.movable) fitted.light.reset();
   };
-  if (first_.light == nullptr) first_.light = std::make_unique<TrainingLight>(transformed_luminance(lights_));
+  if (first_.light == nullptr) first_.light = std::make_unique<TrainingLight>(transformed_channels(lights_));
   both(first_, kFirstCluster, params_.coefficients, op.first);
   if (bounce_.light == nullptr) {
     std::vector<std::vector<Rgbx>> once(lights_.size());
     parallel_for(lights_.size(), 1, [&](std::size_t t) { once[t] = first_bounce(op, lights_[t]); });
-    bounce_.light = std::make_unique<TrainingLight>(transformed_luminance(once));
+    bounce_.light = std::make_unique<TrainingLight>(transformed_channels(once));
   }
   both(bounce_, kBounceCluster, params_.bounce_coefficients, op.bounce);
   op.sweeps = enough_sweeps(op.bounce, op.albedo);
@@ -221,7 +222,7 @@ void OperatorParts::fit_gather(const TransferWork& work, Operator& op) {
       bounce_light(op, lights_[t]);
       haar_inverse(lights_[t]);
     });
-    gather_.light = std::make_unique<TrainingLight>(transformed_luminance(lights_));
+    gather_.light = std::make_unique<TrainingLight>(transformed_channels(lights_));
     lights_ = {};
   }
   const auto rays = static_cast<uint32_t>(params_.rays);
