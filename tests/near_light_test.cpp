@@ -107,29 +107,7 @@ class NearLight : public testing::Test {
     const Hit hit = view_.tracer().closest(
         {lens.eye(), lens.direction({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f})});
     if (!hit) return false;
-    const SurfacePoint at = surface_point(view_.world(), hit);
-    const LightField& field = lamp_.field->finest().field();
-    const Vec3 local = (at.position - lamp_.position) * lamp_.to_world;
-    // gpu/near_lights.cpp: what a map shows of M, but for its margin of 3 texels.
-    const double texel = (field.pixel * field.width + field.spacing) / (kSide - 6),
-                 step = texel * static_cast<double>(-local.z) / field.distance;
-    for (int n = 0; n < field.rows; ++n)
-      for (int m = 0; m < field.columns; ++m) {
-        if (lamp_.field->finest().term(m, n, local, at.shading_normal * lamp_.to_world) == 0) continue;
-        const Vec3 from = lamp_.position + lamp_.to_world * Vec3(Vec2(field.center(m, n)), 0);
-        int lit = 0;
-        for (int i = -2; i <= 2; ++i)
-          for (int j = -2; j <= 2; ++j) {
-            const Vec3 through = at.position + lamp_.to_world * Vec3(Vec2(step * glm::dvec2(i, j)), 0),
-                       direction = glm::normalize(through - from);
-            const float plane =
-                glm::dot(at.position - from, at.geometric_normal) / glm::dot(direction, at.geometric_normal);
-            const Hit first = view_.tracer().closest({from, direction});
-            lit += first && first.distance < plane * (1 - 1e-4f) ? 0 : 1;
-          }
-        if (lit != 0 && lit != 25) return true;
-      }
-    return false;
+    return near_shadow_edge(lamp_, surface_point(view_.world(), hit), view_.tracer(), kSide);
   }
 
   const MovedGroup group_{Id<LightGroup>(0), Rgb(1)};

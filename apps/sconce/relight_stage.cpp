@@ -64,7 +64,8 @@ class GlRelightStage : public RelightStage {
         view_(*context_, job.view.shown()),
         direct_(*context_, view_.geometry(), job.view.world().bounds, std::move(shaders)),
         near_(*context_, view_.geometry(), job.view.world().bounds, lamps.lamps(), lamps.chosen(),
-              {std::max(64, device.shadow_side / 4), device.terms_per_pass, device.srgbe}),
+              {std::max(64, device.shadow_side / 4), device.terms_per_pass, device.srgbe,
+               device.reflections && job.view.scene().has_mirrors()}),
         transfer_(*context_, job.op) {
     using Clock = std::chrono::steady_clock;
     const gpu::Buffer points(*context_, job.op.lit, "the operator's cloud");
@@ -97,6 +98,7 @@ class GlRelightStage : public RelightStage {
       progress.warn("OpenGL moves lamps over surfaces without normal maps: --device cpu sees them");
     if (params.reflections > 0 && job_.view.scene().has_mirrors()) progress.warn(kNoReflections);
     if (job_.view.scene().has_panes()) progress.warn(kNoPanes);
+    near_.set_mix(mix.weights);
     view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
     for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
       std::string line = report.file + ": NaN or infinity, painted over:";

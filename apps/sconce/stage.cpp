@@ -2,6 +2,7 @@
 #include "stage.h"
 
 #include "core/error.h"
+#include "gpu/near_lights.h"
 #include "gpu/way.h"
 #include "mix/tone_lightmap.h"
 #include "picture/fixed_function.h"
@@ -95,7 +96,9 @@ class GlStage : public Stage {
     if (params.reflections > 0 && scene().has_mirrors()) progress.warn(kNoReflections);
     if (scene().has_panes()) progress.warn(kNoPanes);
     const auto light = gpu::choose_mix(*context_, view_, layers_, *tier_, camera, mix.weights, params);
-    view_.draw(camera, mix.weights, *light, params, progress);
+    gpu::AddedLight* glints[] = {mirrored(mix, params)};
+    view_.draw(camera, mix.weights, *light, params, progress,
+               {.added = std::span(glints).first(glints[0] != nullptr ? 1 : 0)});
   }
   Image linear() const override { return view_.linear(); }
   Image coverage() const override { return view_.coverage(); }
@@ -104,6 +107,17 @@ class GlStage : public Stage {
   }
 
  private:
+  /// What glossy surfaces mirror of light fields; null where there is nothing of that.
+  gpu::AddedLight* mirrored(const MixSpec& mix, const PictureParams& params) {
+    if (params.reflections == 0 || !scene().has_mirrors()) return nullptr;
+    if (near_ == nullptr)
+      near_ = std::make_unique<gpu::NearLights>(
+          *context_, view_.geometry(), shown_.world.bounds, Lamps(scene(), shown_.world),
+          std::span<const std::pair<std::size_t, Rgb>>(), gpu::NearLightParams{.glints = true});
+    near_->set_mix(mix.weights);
+    return near_->empty() ? nullptr : near_.get();
+  }
+
   const Package* package_;
   std::unique_ptr<gpu::Context> context_;
   const ShaderTier* tier_;
@@ -111,6 +125,7 @@ class GlStage : public Stage {
   bool directional_;  ///< normal maps are seen
   EncodedLayers layers_;
   gpu::View view_;
+  std::unique_ptr<gpu::NearLights> near_;
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ std::unique_ptr<Stage> make_stage(const Package& package, const std::string& dev
 
 /// What OpenGL says where it leaves them out.
 inline constexpr const char* kNoReflections =
-    "OpenGL draws no reflections: --device cpu does, --no-reflections is silent";
+    "OpenGL draws no reflections but of light fields: --device cpu does, --no-reflections is silent";
 inline constexpr const char* kNoPanes =
     "OpenGL draws glass and blended surfaces as a screen of pixels, without their colour: --device cpu does";
 

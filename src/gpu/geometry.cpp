@@ -187,6 +187,7 @@ void Geometry::draw(const Program& surface, const std::vector<Rgb>& weights) con
     surface.set("normal_scale", m.normal_scale);
     surface.set("base_color", m.base_color);
     surface.set("metallic", m.metallic);
+    surface.set("roughness", m.roughness);
     surface.set("emission", m.emission);
     surface.set("weight", batch.group ? weights.at(batch.group.value) : Rgb(1));
     const bool pane = shown_->scene.passes(m);

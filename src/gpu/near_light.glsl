@@ -40,32 +40,34 @@ float near_mean(int term, vec2 st, float size) {
   return sum / (4.0 * reach * reach);
 }
 
-// x, n, face: in the luminaire's frame
-float near_visible(int layer, vec2 centre, vec2 st, vec3 x, vec3 n, vec3 face) {
+// Where light arrives, in the luminaire's frame.
+struct NearPlace {
+  bool below;  // the sampling plane; else nothing arrives
+  vec3 x, normal, face;
+};
+
+NearPlace near_place(vec3 P, vec3 N, vec3 face) {
+  NearPlace p = NearPlace(false, (P - near_position) * near_frame, N * near_frame, face * near_frame);
+  p.below = p.x.z < -1e-6;
+  return p;
+}
+
+// To the centre of the i-th filter of this pass, m.
+vec3 near_way(int i, NearPlace p) { return vec3(near_terms[near_first + i].xy, 0.0) - p.x; }
+
+float near_visible(int layer, vec2 centre, vec2 st, NearPlace p) {
   mat3 from = mat3(near_texel.x / near_distance, 0.0, 0.0, 0.0, near_texel.y / near_distance, 0.0,
                    (near_low - centre) / near_distance, -1.0);
-  return sconce_filtered(near_depths, layer, (st - near_low) / near_texel, -x.z, x - vec3(centre, 0.0), from, near_end,
-                         false, n, face);
+  return sconce_filtered(near_depths, layer, (st - near_low) / near_texel, -p.x.z, p.x - vec3(centre, 0.0), from,
+                         near_end, false, p.normal, p.face);
 }
 
-// e: illuminance, lux, of this pass's terms; always a number.
-bool sconce_arriving(vec3 P, vec3 N, vec3 face, out vec3 e) {
-  vec3 x = (P - near_position) * near_frame, n = N * near_frame, f = face * near_frame;
-  e = vec3(0.0);
-  if (!(x.z < -1e-6)) return true;
-  float depth = -x.z, ratio = near_distance / depth, size = near_filter * abs(1.0 - ratio), sum = 0.0;
-  for (int i = 0; i < near_count; ++i) {
-    vec4 term = near_terms[near_first + i];
-    vec3 to = vec3(term.xy, 0.0) - x;
-    float cosine = dot(to, n), d2 = dot(to, to);
-    if (!(cosine > 0.0) || !(dot(to, f) > 0.0)) continue;
-    vec2 st = term.xy - to.xy * ratio;
-    float value = term.z * near_mean(near_first + i, st, size) * depth * cosine / (d2 * d2);
-    if (value != 0.0 && near_shadows) value *= near_visible(i, term.xy, st, x, n, f);
-    sum += value;
-  }
-  e = near_color * sum;
-  return true;
+// By the i-th term of this pass, whose centre lies at `to`: lux, with its shadow. cosine: of the surface.
+float near_lux(int i, NearPlace p, vec3 to, float cosine) {
+  vec4 term = near_terms[near_first + i];
+  float depth = -p.x.z, ratio = near_distance / depth, d2 = dot(to, to);
+  vec2 st = term.xy - to.xy * ratio;
+  float mean = near_mean(near_first + i, st, near_filter * abs(1.0 - ratio));
+  float value = term.z * mean * depth * cosine / (d2 * sqrt(d2));
+  return value != 0.0 && near_shadows ? value * near_visible(i, term.xy, st, p) : value;
 }
-
-void sconce_count(uint number) {}

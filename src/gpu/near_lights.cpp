@@ -29,8 +29,17 @@ constexpr std::string_view kLight =
 constexpr std::string_view kPoints =
 #include "gpu/lamp_points.glsl.h"
     ;
+constexpr std::string_view kArriving =
+#include "gpu/near_arriving.glsl.h"
+    ;
+constexpr std::string_view kGloss =
+#include "gpu/gloss.glsl.h"
+    ;
+constexpr std::string_view kSeen =
+#include "gpu/near_seen.glsl.h"
+    ;
 constexpr std::string_view kPixels =
-#include "gpu/lamp_pixels.glsl.h"
+#include "gpu/near_pixels.glsl.h"
     ;
 constexpr std::string_view kSrgbe =
 #include "gpu/near_srgbe.glsl.h"
@@ -41,15 +50,19 @@ constexpr int kSumsUnit = SeenSurfaces::kUnits, kDepthsUnit = kSumsUnit + 1;
 constexpr std::size_t kPointsOfGroup = 64;  // gpu/lamp_points.glsl
 constexpr double kMargin = 3;               // texels around what is looked up, for the filter
 
-std::string whole(std::string_view given, std::string_view end) {
+std::string whole(std::initializer_list<std::string_view> parts) {
   std::string out = "#version 450 core\n";
-  for (const std::string_view more : {given, kFilter, kLight, end}) out += more;
+  for (const std::string_view part : parts) out += part;
   return out;
 }
 
+std::string on_points() {
+  return whole({octahedral_glsl(), kFilter, kLight, kArriving, kPoints});
+}
+
 std::string on_pixels(bool srgbe) {
-  return whole(SeenSurfaces::glsl(), srgbe ? std::string(find_encoding("srgbe8").glsl) + std::string(kSrgbe)
-                                           : std::string(kPixels));
+  return whole({SeenSurfaces::glsl(), kFilter, kLight, kGloss, kSeen,
+                srgbe ? find_encoding("srgbe8").glsl : std::string_view(), srgbe ? kSrgbe : kPixels});
 }
 
 /// Summed-area tables of E' in whole numbers, so that differences are exact: the largest sum of absolute
@@ -82,8 +95,9 @@ std::vector<int32_t> sums_of(const NearLamp& lamp, int m, int n, double& unit) {
 
 /// A light field on the device, for all lamps that have it.
 struct NearLights::Field {
-  Field(const Context& context, const NearField& field, int side) : grid(field.finest().field()) {
-    for (std::size_t c = 0; c < field.channels(); ++c) channels.emplace_back(context, field.channel(c));
+  Field(const Context& context, std::shared_ptr<const NearField> field, int side)
+      : near(std::move(field)), grid(near->finest().field()) {
+    for (std::size_t c = 0; c < near->channels(); ++c) channels.emplace_back(context, near->channel(c));
     // Light falls beyond M by half of what a filter covers of it.
     const glm::dvec2 size = grid.pixel * glm::dvec2(grid.width, grid.height) + grid.spacing,
                      step = size / std::max(1.0, side - 2 * kMargin);
@@ -114,6 +128,7 @@ struct NearLights::Field {
     Texture sums;
     std::optional<Buffer> terms;
   };
+  std::shared_ptr<const NearField> near;
   const LightField& grid;
   std::vector<Channel> channels;  ///< one, or red, green and blue
   Vec2 low, texel;                ///< corner and texels of shadow maps on M, m
@@ -121,7 +136,7 @@ struct NearLights::Field {
 
 struct NearLights::Programs {
   explicit Programs(bool srgbe)
-      : points("light field on points", whole(octahedral_glsl(), kPoints)),
+      : points("light field on points", on_points()),
         pixels("light field on pixels", on_pixels(srgbe)),
         shapes("shadow maps of a light field", kVertex, kGeometry, kFragment) {}
   Program points, pixels, shapes;
@@ -131,14 +146,18 @@ NearLights::NearLights(const Context& context, const Geometry& geometry, const B
                        const Lamps& lamps, std::span<const std::pair<std::size_t, Rgb>> chosen,
                        const NearLightParams& params)
     : context_(&context), geometry_(&geometry), params_(params), end_(1e-4f * bounds.diagonal()) {
-  for (const auto& [number, weight] : chosen) {
+  const auto add = [&](std::size_t number, const Rgb& weight, bool lights) {
     const auto* shape = std::get_if<NearFieldLamp>(&lamps.all()[number].shape);
-    if (shape == nullptr) continue;
+    if (shape == nullptr) return;
     std::unique_ptr<Field>& field = fields_[shape->field.get()];
-    if (field == nullptr) field = std::make_unique<Field>(context, *shape->field, params.shadow_side);
-    lamps_.push_back({field.get(), shape->position, shape->to_world, weight * shape->scale, {}});
+    if (field == nullptr) field = std::make_unique<Field>(context, shape->field, params.shadow_side);
+    Lamp& lamp = lamps_.emplace_back();
+    lamp.field = field.get(), lamp.position = shape->position, lamp.frame = shape->to_world;
+    lamp.scale = shape->scale, lamp.group = lamps.all()[number].group;
+    if (lights) lamp.color = weight * lamp.scale;
+    if (lights && params.glints) lamp.shine = lamp.color;
     if (params.shadow_side > 0)
-      lamps_.back().depths.emplace(
+      lamp.depths.emplace(
           context,
           TextureParams{.format = GL_DEPTH_COMPONENT32F,
                         .width = params.shadow_side,
@@ -147,7 +166,12 @@ NearLights::NearLights(const Context& context, const Geometry& geometry, const B
                                                             : field->count(),
                         .filter = GL_NEAREST},
           "shadow maps of a light field");
-  }
+  };
+  for (const auto& [number, weight] : chosen) add(number, weight, true);
+  chosen_ = lamps_.size();
+  for (std::size_t i = 0; params.glints && i < lamps.size(); ++i)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const auto& c) { return c.first == i; }))
+      add(i, Rgb(1), false);
   if (!lamps_.empty()) programs_ = std::make_unique<Programs>(params.srgbe);
   context.check("preparing light fields");
 }
@@ -158,10 +182,19 @@ void NearLights::move(std::size_t i, const Vec3& position, const Mat3& frame) {
   lamps_[i].position = position, lamps_[i].frame = frame, lamps_[i].drawn = false;
 }
 
+void NearLights::set_mix(const std::vector<Rgb>& weights) {
+  for (std::size_t i = chosen_; i < lamps_.size(); ++i) {
+    Lamp& lamp = lamps_[i];
+    lamp.shine = lamp.scale * (lamp.group.valid() ? weights.at(lamp.group.value) : Rgb(1));
+  }
+}
+
 void NearLights::use(const Program& program, const Lamp& lamp, std::size_t channel) const {
   const LightField& grid = lamp.field->grid;
-  const Rgb &all = lamp.color,
-            alone(channel == 0 ? all.r : 0, channel == 1 ? all.g : 0, channel == 2 ? all.b : 0);
+  const auto of_channel = [&](const Rgb& all) {
+    if (lamp.field->channels.size() == 1) return all;
+    return Rgb(channel == 0 ? all.r : 0, channel == 1 ? all.g : 0, channel == 2 ? all.b : 0);
+  };
   program.use();
   program.set("near_sums", kSumsUnit), program.set("near_depths", kDepthsUnit);
   lamp.field->channels[channel].sums.bind(kSumsUnit);
@@ -169,7 +202,7 @@ void NearLights::use(const Program& program, const Lamp& lamp, std::size_t chann
   lamp.field->channels[channel].terms->bind(kTerms);
   program.set("near_shadows", lamp.depths ? 1 : 0);
   program.set("near_position", lamp.position), program.set("near_frame", lamp.frame);
-  program.set("near_color", lamp.field->channels.size() > 1 ? alone : all);
+  program.set("near_color", of_channel(lamp.color)), program.set("near_shine", of_channel(lamp.shine));
   program.set("near_distance", static_cast<float>(grid.distance));
   program.set("near_filter", static_cast<float>(grid.spacing));
   program.set("near_pixel", static_cast<float>(grid.pixel)), program.set("near_corner", Vec2(grid.corner));
@@ -217,7 +250,7 @@ void NearLights::each_pass(Lamp& lamp, const Program& program, const F& sum) {
 
 void NearLights::light_cloud(const Buffer& points, uint32_t slots, uint32_t points_per_slot,
                              const Buffer& exitance) {
-  for (Lamp& lamp : lamps_)
+  for (Lamp& lamp : std::span(lamps_).first(chosen_))
     each_pass(lamp, programs_->points, [&] {
       programs_->points.set("sconce_slots", slots), programs_->points.set("sconce_per_slot", points_per_slot);
       points.bind(0), exitance.bind(1);
@@ -237,7 +270,8 @@ void NearLights::add(const SeenSurfaces& seen, const Texture& picture) {
     glBindImageTexture(1, kept->handle(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA8);
   }
   for (Lamp& lamp : lamps_)
-    each_pass(lamp, programs_->pixels, [&] { seen.shade(programs_->pixels, picture); });
+    if (!lamp.color.is_black() || !lamp.shine.is_black())
+      each_pass(lamp, programs_->pixels, [&] { seen.shade(programs_->pixels, picture); });
   context_->check("lighting the picture by light fields");
 }
 

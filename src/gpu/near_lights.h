@@ -22,6 +22,9 @@ struct NearLightParams {
   /// kept. Fewer: they are drawn again for each pass, in their place.
   int terms_per_pass = 0;  ///< 0 = all
   bool srgbe = false;      ///< passes of a picture are summed in 8 bits with a signed shared exponent
+  /// Glossy surfaces mirror light fields (picture/glint.h), those of the mix, too; a coat takes nothing from
+  /// the light below it, as it mirrors nothing else.
+  bool glints = false;
 };
 
 class NearLights : public AddedLight {
@@ -32,8 +35,12 @@ class NearLights : public AddedLight {
              std::span<const std::pair<std::size_t, Rgb>> chosen, const NearLightParams& params);
   ~NearLights() override;
 
+  bool empty() const { return lamps_.empty(); }
   /// Moves the i-th of the light fields; its maps are drawn anew.
   void move(std::size_t i, const Vec3& position, const Mat3& frame);
+  /// Weights of the light groups, for what is mirrored of light fields that were not chosen: black until
+  /// then.
+  void set_mix(const std::vector<Rgb>& weights);
 
   /// Adds albedo x illuminance of each slot's points, their mean, lm/m2.
   void light_cloud(const Buffer& points, uint32_t slots, uint32_t points_per_slot, const Buffer& exitance);
@@ -48,10 +55,12 @@ class NearLights : public AddedLight {
  private:
   struct Field;
   struct Lamp {
-    const Field* field;
-    Vec3 position;
-    Mat3 frame;
-    Rgb color;
+    const Field* field = nullptr;
+    Vec3 position{0};
+    Mat3 frame{1.0f};
+    Rgb scale;
+    Id<LightGroup> group;
+    Rgb color, shine;  ///< what it lights with, and what is mirrored of it
     std::optional<Texture> depths;
     bool drawn = false;  ///< all maps are there
   };
@@ -66,7 +75,8 @@ class NearLights : public AddedLight {
   NearLightParams params_;
   float end_;  ///< of shadow maps, m
   std::map<const NearField*, std::unique_ptr<Field>> fields_;
-  std::vector<Lamp> lamps_;
+  std::vector<Lamp> lamps_;  ///< first those that were chosen
+  std::size_t chosen_ = 0;
   struct Programs;
   std::unique_ptr<Programs> programs_;  ///< null where there are no such lamps
   Passes passes_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field on what a picture shows, summed over passes in 8 bits with a signed shared exponent (the paper's
-// section 4.2), after gpu/seen_surfaces.glsl, gpu/near_light.glsl and encode/srgbe8.glsl.
+// A light field added to a picture, summed over passes in 8 bits with a signed shared exponent (the paper's
+// section 4.2), after gpu/near_seen.glsl and encode/srgbe8.glsl.
 
 layout(rgba8, binding = 1) uniform image2D near_kept;
 uniform bool near_begin, near_last;  // of the lamp's passes
@@ -17,11 +17,10 @@ vec4 near_encode(vec3 v) {
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   SconceSurface s = sconce_surface(at);
-  if (!s.there) return;
-  vec3 e;
-  sconce_arriving(s.place, s.normal, s.face, e);
-  if (!near_begin) e += decode_srgbe8(imageLoad(near_kept, at), vec4(1.0)).rgb;
-  vec4 code = near_encode(e);
-  if (near_last) sconce_add(at, s, decode_srgbe8(code, vec4(1.0)).rgb);
+  if (!s.lit) return;
+  vec3 light = near_seen(s);
+  if (!near_begin) light += decode_srgbe8(imageLoad(near_kept, at), vec4(1.0)).rgb;
+  vec4 code = near_encode(light);
+  if (near_last) sconce_add_radiance(at, decode_srgbe8(code, vec4(1.0)).rgb);
   else imageStore(near_kept, at, code);
 }

@@ -24,16 +24,17 @@ std::string SeenSurfaces::glsl() {
 
 void SeenSurfaces::shade(const Program& program, const Texture& picture) const {
   int unit = 0;
-  for (const Texture* texture : {&depth, &place, &normals, &albedo}) texture->bind(unit++);
+  for (const Texture* texture : {&depth, &surfaces, &materials}) texture->bind(unit++);
   unit = 0;
-  for (const char* name : {"sconce_depth", "sconce_place", "sconce_normals", "sconce_albedo"})
-    program.set(name, unit++);
+  for (const char* name : {"sconce_depth", "sconce_surfaces", "sconce_materials"}) program.set(name, unit++);
+  program.set("sconce_seen_from", lens.eye()), program.set("sconce_seen_plane", lens.plane());
+  program.set("sconce_seen_shift", shift);
   glBindImageTexture(0, picture.handle(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
   const TextureParams& size = picture.params();
   glDispatchCompute(static_cast<GLuint>((size.width + kGroup - 1) / kGroup),
                     static_cast<GLuint>((size.height + kGroup - 1) / kGroup), 1);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                  GL_FRAMEBUFFER_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+                  GL_FRAMEBUFFER_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace sconce::gpu

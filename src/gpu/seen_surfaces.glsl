@@ -1,28 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one pass of a picture shows (SeenSurfaces), a thread for each pixel, and the picture itself.
+// What one pass of a picture shows (SeenSurfaces), a thread for each pixel, and the picture itself. After
+// gpu/octahedral.glsl.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2D sconce_depth, sconce_place, sconce_normals, sconce_albedo;
+uniform sampler2D sconce_depth;
+uniform usampler2D sconce_surfaces, sconce_materials;  // gpu/surface.glsl
+uniform vec3 sconce_seen_from;
+uniform mat3 sconce_seen_plane;  // Lens::plane
+uniform vec2 sconce_seen_shift;  // of the picture below its sampling points, in pixels
 layout(rgba32f, binding = 0) uniform image2D sconce_seen;
 
 struct SconceSurface {
-  bool there;
-  vec3 place, normal, face, albedo;
+  bool lit, there;                                 // something that is not black; and not all of it mirrors
+  vec3 place, normal, face, albedo, base, to_eye;  // albedo: of what is diffuse
+  float metallic, roughness;
 };
 
 SconceSurface sconce_surface(ivec2 at) {
-  const SconceSurface nothing = SconceSurface(false, vec3(0), vec3(0), vec3(0), vec3(0));
-  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, imageSize(sconce_seen)))) return nothing;
-  if (texelFetch(sconce_depth, at, 0).r == 0.0) return nothing;
-  vec3 albedo = texelFetch(sconce_albedo, at, 0).rgb;
-  if (albedo == vec3(0.0)) return nothing;
-  vec4 normals = texelFetch(sconce_normals, at, 0);
-  return SconceSurface(true, texelFetch(sconce_place, at, 0).xyz, sconce_octahedral(normals.xy),
-                       sconce_octahedral(normals.zw), albedo);
+  SconceSurface s;
+  s.lit = s.there = false;
+  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, imageSize(sconce_seen)))) return s;
+  if (texelFetch(sconce_depth, at, 0).r == 0.0) return s;
+  uvec4 surface = texelFetch(sconce_surfaces, at, 0);
+  uvec2 material = texelFetch(sconce_materials, at, 0).rg;
+  vec2 more = unpackUnorm2x16(material.x);
+  s.roughness = uintBitsToFloat(material.y);
+  if (s.roughness < 0.0) return s;
+  vec3 ray = sconce_seen_plane * vec3(vec2(at) + 0.5 - sconce_seen_shift, 1.0);
+  s.lit = true;
+  s.place = sconce_seen_from + uintBitsToFloat(surface.x) * ray;
+  s.to_eye = -normalize(ray);
+  s.normal = sconce_octahedral(surface.y);
+  s.face = sconce_octahedral(surface.z);
+  s.base = vec3(unpackUnorm2x16(surface.w), more.x);
+  s.metallic = more.y;
+  s.albedo = s.base * (1.0 - s.metallic);
+  s.there = s.albedo != vec3(0.0);
+  return s;
+}
+
+// light: radiance towards the eye, cd/m2
+void sconce_add_radiance(ivec2 at, vec3 light) {
+  imageStore(sconce_seen, at, imageLoad(sconce_seen, at) + vec4(light, 0.0));
 }
 
 // e: illuminance, lux
 void sconce_add(ivec2 at, SconceSurface surface, vec3 e) {
-  imageStore(sconce_seen, at, imageLoad(sconce_seen, at) + vec4(surface.albedo * 0.318309886 * e, 0.0));
+  sconce_add_radiance(at, surface.albedo * 0.318309886 * e);
 }

@@ -6,22 +6,24 @@
 
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "scene/lens.h"
 
 namespace sconce::gpu {
 
-/// What one pass of a picture shows, per pixel: RGBA float textures.
+/// What one pass of a picture shows, per pixel: 28 bytes with the depth.
 struct SeenSurfaces {
-  const Texture& depth;    ///< 0 where nothing is; there the others say nothing
-  const Texture& place;    ///< xyz, m
-  const Texture& normals;  ///< towards the camera, octahedral: xy interpolated, zw the face's
-  const Texture& albedo;   ///< diffuse; black on backs that are
+  const Texture& depth;      ///< 0 where nothing is; there the others say nothing
+  const Texture& surfaces;   ///< RGBA32UI: place, normals and colour as gpu/surface.glsl packs them
+  const Texture& materials;  ///< RG32UI: what they mirror
+  const Lens& lens;          ///< that it was seen through
+  Vec2 shift{0};             ///< of the picture below its sampling points, in pixels
 
   /// Runs a compute shader that begins with glsl() once per pixel.
   /// @param program  in use
   /// @param picture  RGBA floats of that size: radiance, cd/m2
   void shade(const Program& program, const Texture& picture) const;
 
-  static constexpr int kUnits = 4;  ///< that shade() uses, from 0 on
+  static constexpr int kUnits = 3;  ///< that shade() uses, from 0 on
   /// gpu/octahedral.glsl and gpu/seen_surfaces.glsl.
   static std::string glsl();
 };

@@ -4,7 +4,7 @@
 
 uniform sampler2D base_map, metallic_map, emission_map, normal_map;
 uniform vec3 base_color, emission, weight;
-uniform float alpha, alpha_cutoff, metallic;
+uniform float alpha, alpha_cutoff, metallic, roughness;
 uniform bool double_sided, has_normal_map, blends;
 uniform float transmission, screen;  // of the sample: shifts the screen that panes are drawn by
 uniform float normal_scale;
@@ -24,9 +24,8 @@ uniform vec3 eye;
 uniform mat3 plane;  // Lens::plane
 uniform vec2 shift;  // of the picture below its sampling points, in pixels
 in vec3 place;
-layout(location = 1) out vec4 seen_place;
-layout(location = 2) out vec4 seen_normals;
-layout(location = 3) out vec4 seen_albedo;
+layout(location = 1) out uvec4 seen_surface;   // depth, m; normals towards the camera: interpolated, the face's; base colour
+layout(location = 2) out uvec2 seen_material;  // blue and metallic; roughness, -1 on backs that are black
 #endif
 
 // World::normal
@@ -67,7 +66,8 @@ bool passes(float base_alpha) {
 void main() {
   vec4 base = texture(base_map, base_uv) * vec4(base_color, alpha);
   if (base.a < alpha_cutoff || passes(base.a)) discard;
-  vec3 albedo = base.rgb * (1.0 - metallic * texture(metallic_map, metallic_uv).b);
+  vec2 rough_metal = vec2(roughness, metallic) * texture(metallic_map, metallic_uv).gb;
+  vec3 albedo = base.rgb * (1.0 - rough_metal.y);
   int page = gl_FrontFacing ? front_page : back_page;
   vec3 offset = gl_FrontFacing ? normal_offset() : -normal_offset();
   vec3 light = page < 0 ? vec3(0.0) : illuminance(gl_FrontFacing ? front_uv : back_uv, page, offset);
@@ -88,8 +88,9 @@ void main() {
   float side = gl_FrontFacing ? 1.0 : -1.0;
   // Rasterisation snaps corners to 1/256 of a pixel; the ray through the sampling point meets the face just here.
   vec3 ray = plane * vec3(gl_FragCoord.xy - shift, 1.0);
-  seen_place = vec4(eye + ray * (dot(place - eye, face_normal) / dot(ray, face_normal)), 1.0);
-  seen_normals = vec4(sconce_to_octahedral(side * front_normal()), sconce_to_octahedral(side * face_normal));
-  seen_albedo = vec4(lit ? albedo : vec3(0.0), 0.0);
+  float depth = dot(place - eye, face_normal) / dot(ray, face_normal);
+  seen_surface = uvec4(floatBitsToUint(depth), packSnorm2x16(sconce_to_octahedral(side * front_normal())),
+                       packSnorm2x16(sconce_to_octahedral(side * face_normal)), packUnorm2x16(base.rg));
+  seen_material = uvec2(packUnorm2x16(vec2(base.b, rough_metal.y)), floatBitsToUint(lit ? rough_metal.x : -1.0));
 #endif
 }

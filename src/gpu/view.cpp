@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/error.h"
 #include "core/sobol.h"
 #include "gpu/display_pass.h"
 
@@ -50,16 +51,26 @@ struct View::Targets {
 /// The same pass, with what it shows.
 struct View::Surfaces {
   Surfaces(const Context& context, const Targets& targets)
-      : place(context, params(targets), "picture"),
-        normals(context, params(targets), "picture"),
-        albedo(context, params(targets), "picture"),
-        pass(targets.color, 0, &targets.depth, std::array{&place, &normals, &albedo}) {}
-  static TextureParams params(const Targets& targets) {
-    return {.format = GL_RGBA32F, .width = targets.width(), .height = targets.height(), .filter = GL_NEAREST};
+      : surfaces(context, params(targets, GL_RGBA32UI), "picture"),
+        materials(context, params(targets, GL_RG32UI), "picture"),
+        pass(targets.color, 0, &targets.depth, std::array{&surfaces, &materials}) {}
+  static TextureParams params(const Targets& targets, GLenum format) {
+    return {.format = format, .width = targets.width(), .height = targets.height(), .filter = GL_NEAREST};
+  }
+  void keep(const Context& context, const Targets& targets, const Lens& through) {
+    if (!kept) kept.emplace(context, params(targets, GL_RGBA32F), "picture");
+    lens = through;
+    copy(targets.color, *kept);
+  }
+  static void copy(const Texture& from, const Texture& to) {
+    glCopyImageSubData(from.handle(), GL_TEXTURE_2D, 0, 0, 0, 0, to.handle(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       from.params().width, from.params().height, 1);
   }
 
-  Texture place, normals, albedo;
+  Texture surfaces, materials;
   Framebuffer pass;
+  std::optional<Texture> kept;  ///< the picture without added light
+  std::optional<Lens> lens;     ///< that this was seen through
 };
 
 View::View(const Context& context, const ShownScene& shown, bool normal_maps)
@@ -129,7 +140,11 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
   if (!targets_ || targets_->width() != params.width || targets_->height() != params.height)
     surfaces_.reset(), targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
   const std::span<AddedLight* const> added = options.added;
-  if (!added.empty() && surfaces_ == nullptr) surfaces_ = std::make_unique<Surfaces>(*context_, *targets_);
+  if ((!added.empty() || options.keep) && surfaces_ == nullptr)
+    surfaces_ = std::make_unique<Surfaces>(*context_, *targets_);
+  if (surfaces_ != nullptr) surfaces_->lens.reset();
+  if (options.keep && params.samples > 1)
+    throw UsageError("a picture that is kept", std::to_string(params.samples) + " samples", "one");
   samples_ = options.last < 0 ? params.samples : std::min(options.last, params.samples);
   const Program& surface = surface_for(light);
   const Bounds& bounds = shown_->world.bounds;
@@ -156,7 +171,7 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     targets_->pass.use();
     targets_->pass.clear();
     if (options.look == Look::picture) draw_sky(lens, weights, shift);
-    if (!added.empty()) surfaces_->pass.use();
+    if (!added.empty() || options.keep) surfaces_->pass.use();
     glEnable(GL_DEPTH_TEST);
     surface.use();
     surface.set("shift", shift);
@@ -164,11 +179,24 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     light.bind(surface, Geometry::kUnits);  // added light has used its units
     geometry_.draw(surface, weights);
     glDisable(GL_DEPTH_TEST);
-    for (AddedLight* more : added)
-      more->add({targets_->depth, surfaces_->place, surfaces_->normals, surfaces_->albedo}, targets_->color);
+    if (options.keep) surfaces_->keep(*context_, *targets_, lens);
+    add(added, lens, shift);
     if (summed_) add_pass();
     context_->check("drawing the picture");
   }
+}
+
+void View::add(std::span<AddedLight* const> added, const Lens& lens, Vec2 shift) const {
+  for (AddedLight* more : added)
+    more->add({targets_->depth, surfaces_->surfaces, surfaces_->materials, lens, shift}, targets_->color);
+}
+
+void View::relight(std::span<AddedLight* const> added) {
+  if (surfaces_ == nullptr || !surfaces_->lens)
+    throw UsageError("View::relight", "nothing", "a picture that was kept");
+  Surfaces::copy(*surfaces_->kept, targets_->color);
+  add(added, *surfaces_->lens, Vec2(0));
+  context_->check("lighting the picture anew");
 }
 
 void View::add_pass() const {

@@ -27,6 +27,7 @@ struct DrawOptions {
   Vec2 page_size{1024};      ///< texels; for charts
   int first = 0, last = -1;  ///< samples to draw now, on top of those before `first`; -1: to the end
   std::span<AddedLight* const> added = {};  ///< to a picture
+  bool keep = false;                        ///< the picture without added light, for relight(); of one sample
 };
 
 /// A package ready to be drawn.
@@ -46,6 +47,10 @@ class View {
   void draw(const Camera& camera, const std::vector<Rgb>& weights, const LightSource& light,
             const PictureParams& params, const Progress& progress = {}, const DrawOptions& options = {});
 
+  /// The picture of the last draw(), which kept it, again with light that was added to it before changed: for
+  /// lamps that move while camera, size and mix stay. Nothing of the scene is drawn. @throws UsageError
+  void relight(std::span<AddedLight* const> added);
+
   const Geometry& geometry() const { return geometry_; }
 
   Image linear() const;    ///< cd/m2, before exposure
@@ -61,6 +66,7 @@ class View {
   struct Surfaces;
   const Program& surface_for(const LightSource& light);
   void draw_sky(const Lens& lens, const std::vector<Rgb>& weights, Vec2 shift) const;
+  void add(std::span<AddedLight* const> added, const Lens& lens, Vec2 shift) const;
   void add_pass() const;
   std::vector<float> sums() const;
 
