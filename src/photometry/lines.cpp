@@ -52,10 +52,12 @@ bool Numbers::more() {
   return find();
 }
 
-double Numbers::next(const std::string& what) {
+/// @param name  makes what an error calls the number
+template <class Name>
+double Numbers::read(const Name& name) {
   if (!find()) {
     line_ = lines_.empty() ? 0 : lines_.size() - 1;
-    fail("ends before " + what);
+    fail("ends before " + name());
   }
   const std::string_view rest = std::string_view(lines_[line_]).substr(column_);
   std::string_view token = rest.substr(0, rest.find_first_of(kSeparators));
@@ -63,8 +65,12 @@ double Numbers::next(const std::string& what) {
   column_ += token.size();
   const auto value = parse_number(token);
   if (!value || !std::isfinite(*value))
-    fail("'" + std::string(token) + "' stands where " + what + " should", "a number");
+    fail("'" + std::string(token) + "' stands where " + name() + " should", "a number");
   return *value;
+}
+
+double Numbers::next(const std::string& what) {
+  return read([&] { return what; });
 }
 
 int Numbers::integer(const std::string& what, int least, int most) {
@@ -77,14 +83,14 @@ int Numbers::integer(const std::string& what, int least, int most) {
 
 std::vector<double> Numbers::list(std::size_t count, const std::string& what) {
   std::vector<double> out;
-  while (out.size() < count) out.push_back(next(counted(what, out.size(), count)));
+  while (out.size() < count) out.push_back(read([&] { return counted(what, out.size(), count); }));
   return out;
 }
 
 std::vector<double> Numbers::ascending(std::size_t count, const std::string& what) {
   std::vector<double> out;
   while (out.size() < count) {
-    const double v = next(counted(what, out.size(), count));
+    const double v = read([&] { return counted(what, out.size(), count); });
     if (!out.empty() && !(v > out.back()))
       fail(counted(what, out.size(), count) + " is not above the one before");
     out.push_back(v);

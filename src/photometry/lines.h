@@ -40,6 +40,8 @@ class Numbers {
 
  private:
   bool find();
+  template <class Name>
+  double read(const Name& name);
 
   const std::vector<std::string>& lines_;
   std::size_t line_, column_ = 0;
