@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/exr_header.h"
 
+#include <ImfChannelList.h>
 #include <ImfChromaticities.h>
 #include <ImfFloatAttribute.h>
 #include <ImfStandardAttributes.h>
@@ -70,14 +71,15 @@ void check_size(const Imf::Header& header, std::size_t channels, std::size_t fil
   const int64_t height = int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > (1 << 24) || height > (1 << 24))
     throw std::runtime_error("data window of " + std::to_string(width) + " x " + std::to_string(height));
-  // Deflate reaches 1:1032 on halves, which become floats here; runs and PIZ reach less. Lossy ones make
-  // nearly nothing of black.
-  const Imf::Compression packing = header.compression();
-  const bool lossy = packing == Imf::B44_COMPRESSION || packing == Imf::B44A_COMPRESSION ||
-                     packing == Imf::DWAA_COMPRESSION || packing == Imf::DWAB_COMPRESSION;
+  // Deflate reaches 1:1032 on halves, which become floats here; runs, PIZ and B44 reach less. DWA makes
+  // nearly nothing of black, and subsampled channels have fewer pixels than are counted here.
+  bool strict =
+      alone && header.compression() != Imf::DWAA_COMPRESSION && header.compression() != Imf::DWAB_COMPRESSION;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    strict = strict && c.channel().xSampling == 1 && c.channel().ySampling == 1;
   const double bytes =
       4.0 * static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
-  if (bytes > (lossy || !alone ? 64e6 + 4096.0 * file : 64e3 + 2100.0 * file))
+  if (bytes > (strict ? 64e3 + 2100.0 * file : 64e6 + 4096.0 * file))
     throw std::runtime_error("claims " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels, more than its " + std::to_string(file_bytes) + " bytes can hold");
   if (!header.hasTileDescription()) return;
