@@ -90,6 +90,7 @@ END
   take gltf "$work/denoised.sconce/scene.glb"
   tar xJf "$suite/ufbx-obj-fuzz.tar.xz" -C "$work"
   take obj "$suite"/tinyobj/*.obj "$work"/ufbx-obj-fuzz/obj_fuzz/*.obj
+  take mtl "$suite"/tinyobj/*.mtl "$work"/ufbx-obj-fuzz/mtl_fuzz/*.mtl
   for file in "$suite"/tinyobj/*.mtl "$work"/ufbx-obj-fuzz/mtl_fuzz/*.mtl; do
     { cat "$suite/tinyobj/cube.obj" && echo '#mtl' && cat "$file"; } >"$work/both" && take obj "$work/both"
   done
