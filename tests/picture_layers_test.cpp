@@ -108,6 +108,38 @@ TEST_F(PictureLayers, Acescg) {
   EXPECT_NEAR(w.data[1], 0.070194f * m.data[0] + 0.916354f * m.data[1] + 0.013452f * m.data[2], 1e-4f);
 }
 
+// A picture keeps its own colour space, and is converted on request, there and back; its file says which.
+TEST_F(PictureLayers, ColourSpacesOfPictures) {
+  render({"--layers", "groups"});
+  const auto mixed = [&](const std::string& from, const std::string& to,
+                         const std::vector<std::string>& more) {
+    std::vector<std::string> words{"mix", path(from), "a=0.5", "-o", path(to)};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_sconce(words).code, 0);
+    return read_exr(path(to));
+  };
+  const Image own = mixed("x.exr", "own.exr", {}),
+              wide = mixed("x.exr", "wide.exr", {"--colorspace", "acescg"});
+  EXPECT_EQ(own.primaries, kRec709Primaries);
+  EXPECT_EQ(wide.primaries, kAcescgPrimaries);
+  ASSERT_EQ(own.pixels(), wide.pixels());
+  double lit = 0;
+  for (std::size_t i = 0; i < own.pixels(); ++i) {
+    const float r = value(own, i, "R"), g = value(own, i, "G"), b = value(own, i, "B");
+    EXPECT_NEAR(value(wide, i, "R"), 0.613097f * r + 0.339523f * g + 0.047379f * b, 1e-4f * (r + g + b));
+    lit += static_cast<double>(g);
+  }
+  EXPECT_GT(lit, 0);
+  // A picture in ACEScg with groups.
+  render({"--layers", "groups", "--colorspace", "acescg"});
+  EXPECT_EQ(mixed("x.exr", "kept.exr", {}).primaries, kAcescgPrimaries);
+  const Image back = mixed("x.exr", "back.exr", {"--colorspace", "rec709"});
+  EXPECT_EQ(back.primaries, kRec709Primaries);
+  for (std::size_t i = 0; i < own.pixels(); ++i)
+    EXPECT_NEAR(value(back, i, "B"), value(own, i, "B"), 1e-4f * (1 + value(own, i, "G")));
+  EXPECT_EQ(run_sconce({"mix", path("x.exr"), "--colorspace", "srgb", "-o", path("y.exr")}).code, 2);
+}
+
 // Light fades linearly; the exposure, here absolute, in stops.
 TEST_F(PictureLayers, Sequence) {
   folder_.write("day.toml", "ev100 = \"4\"\n[mix]\na = \"1\"\nb = \"off\"\n");

@@ -120,7 +120,6 @@ int run_mix(int argc, const char* const* argv) {
   PictureMix job;
   MixOptions settings;
   ToneOptions tone;
-  std::string colorspace = "rec709";
   Options options(
       "mix",
       "Adds a package's layers with the groups' weights: one lightmap per page, linear in lux, or as codes "
@@ -146,14 +145,15 @@ int run_mix(int argc, const char* const* argv) {
       "--frames", &job.frames,
       "FIRST-LAST: mixes a sequence of pictures; input and output have %04d (or %d) for the number; "
       "exposure is metered on the first");
-  options.option("--colorspace", &colorspace, "of a package's OpenEXR: rec709, acescg");
+  options.option("--colorspace", &job.colorspace,
+                 "of an OpenEXR: rec709, acescg (default: of a package rec709, of a picture its own)");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (job.output.empty()) throw UsageError({}, "missing -o FILE.exr or FILE.png: where to write the mix");
   check_output(job.output, {".exr", ".png"});
   const bool toned = lower(fs::path(job.output).extension().string()) == ".png";
   if (!toned && !(tone.exposure.empty() && tone.ev100.empty() && tone.curve.empty()))
     throw UsageError({}, "--exposure, --ev100 and --tone need -o FILE.png: an OpenEXR mix stays linear");
-  const bool acescg = is_acescg(colorspace, !toned);
+  const bool acescg = !job.colorspace.empty() && is_acescg(job.colorspace, !toned);
   const Preset preset = settings.preset();
   tone.apply(preset);
   tone.check();
@@ -166,9 +166,6 @@ int run_mix(int argc, const char* const* argv) {
   };
   const bool is_picture = lower(fs::path(job.input).extension().string()) == ".exr";
   if (!job.frames.empty() || is_picture || fs::is_regular_file(job.input)) {
-    if (acescg)
-      throw UsageError("option '--colorspace'", job.input + " is a picture, which keeps its own",
-                       "a package");
     const MixedPictures mixed = mix_pictures(job, settings, preset, tone, make_progress(options));
     report({mixed.files, mixed.width, mixed.height, mixed.groups, mixed.mix});
     return kDone;

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "image/frames.h"
 #include "image/io.h"
+#include "image/primaries.h"
 #include "mix/layered_image.h"
 #include "tone/apply.h"
 
@@ -52,13 +53,15 @@ class PictureMixer {
     // What is to be said is said of the first frame.
     const bool first = out_.files.empty();
     const MixSpec mix = settings_.make(preset_, layered.groups, first ? progress_ : Progress{});
-    const Image mixed = mix_layers(layered, mix);
+    Image mixed = mix_layers(layered, mix);
     if (first) {
       warn(layered, input);
       out_.width = mixed.width, out_.height = mixed.height;
       out_.groups = layered.groups, out_.mix = mix;
     }
     const bool toned = lower(fs::path(output).extension().string()) == ".png";
+    if (!job_.colorspace.empty()) to_rec709(mixed);
+    if (job_.colorspace == "acescg") to_acescg(mixed);
     toned ? write_png(output, tone(shown(layered, mixed))) : write_linear(output, with_mixed(layered, mixed));
     out_.files.push_back(output);
   }

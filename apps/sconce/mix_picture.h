@@ -14,6 +14,7 @@ struct PictureMix {
   std::string input, output;  ///< with %d or %04d where there are frames; output "-": standard output
   std::string frames;         ///< "A-B" or "N"; empty = one picture
   std::string groups_from;    ///< see find_groups()
+  std::string colorspace;     ///< of OpenEXR: rec709, acescg; empty = the file's own
 };
 
 struct MixedPictures {

@@ -7,6 +7,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 
 #include <algorithm>
 
@@ -114,6 +115,13 @@ Imf::Header make_header(const ExrParts& picture) {
   Imf::Header header = picture.attributes ? picture.attributes->header : Imf::Header();
   for (const char* name : {"name", "type", "view", "multiView", "tiles", "chunkCount", "preview", "version"})
     header.erase(name);
+  Image stated;
+  read_attributes(header, stated);
+  if (const auto& p = picture.image.primaries; p != stated.primaries) {
+    Imf::addChromaticities(header, {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, {p[6], p[7]}});
+    for (const char* name : {"oiio:ColorSpace", "colorInteropID", "acesImageContainerFlag"})
+      header.erase(name);
+  }
   header.channels() = Imf::ChannelList();
   header.compression() = Imf::ZIP_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;

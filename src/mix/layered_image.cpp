@@ -165,6 +165,7 @@ ExrParts with_mixed(const LayeredImage& layered, const Image& mixed) {
   if (layered.alpha) keep(*layered.alpha, "A");
   for (const std::size_t c : layered.others) keep(c, image.channels[c]);
   out.image = Image(image.width, image.height, names);
+  out.image.primaries = mixed.primaries;
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     float* to = &out.image.data[i * names.size()];
     std::copy_n(&mixed.data[3 * i], 3, to);
