@@ -218,6 +218,33 @@ TEST_F(Browser, Sky) {
   compare({{"tier=half", {press("sky brightness, in stops", "ArrowLeft", 20)}, {"sky=-2ev"}}});
 }
 
+// Coloured glass before a veil, on a third of the picture (codes are blended, where the CPU blends light); a
+// fader moves what is behind them.
+TEST_F(Browser, PanesLetThrough) {
+  Scene room = test::two_lamp_room();
+  Material glass, veil;
+  glass.name = "glass", glass.base_color = Rgb(0.9f, 0.6f, 0.3f), glass.transmission = 0.9f;
+  veil.name = "veil", veil.base_color = Rgb(0.4f), veil.alpha_mode = Material::Alpha::blend,
+  veil.alpha = 0.4f;
+  glass.double_sided = veil.double_sided = true;
+  for (const auto& [material, x, z] : {std::tuple{glass, -0.6f, 0.1f}, {veil, -0.1f, 0}}) {
+    room.materials.push_back(material);
+    add_quad(room, material.name, Id<Material>(room.materials.size() - 1), Vec3(x, 0.4f, z), Vec3(0.7f, 0, 0),
+             Vec3(0, 0.7f, 0));
+  }
+  bake(folder_.write("panes.glb", write_glb(room, "test")), {"--atlas", "256", "--samples", "64"});
+  run({"export", path("x.sconce"), "--web", path("site"), "--quiet"});
+  compare({{"tier=half", Json::array(), {}},
+           {"tier=byte", {press("left brightness, in stops", "ArrowLeft", 20)}, {"left=-2ev"}}});
+  // Opaque panes would be seen.
+  for (std::size_t m = room.materials.size() - 2; m < room.materials.size(); ++m)
+    room.materials[m].transmission = 0, room.materials[m].alpha_mode = Material::Alpha::opaque;
+  bake(folder_.write("walls.glb", write_glb(room, "test")), {"--atlas", "256", "--samples", "8"});
+  run({"render", path("x.sconce"), "--device", "cpu", "--size", "800x450", "-o", path("walls.png"),
+       "--quiet"});
+  EXPECT_GT(mean_difference(codes(path("web0.png")), codes(path("walls.png"))), 4);
+}
+
 TEST_F(Browser, IsUsableAndSaysWhatIsMissing) {
   bake(SCONCE_SOURCE_DIR "/scenes/bathroom.glb", {"--atlas", "256", "--samples", "1", "--bounces", "1"});
   const std::string preset = folder_.write("dim.toml", "[mix]\nceiling = \"-2ev\"\n");

@@ -226,7 +226,12 @@ TEST_F(MixRender, ReflectionsFollowTheFaders) {
   };
   EXPECT_NEAR(seen({}), 0.5f * 4, 1e-5f);
   EXPECT_NEAR(seen({"a=25%"}), 0.5f, 1e-5f);
-  EXPECT_EQ(seen({"--no-reflections"}), 0);
+  const float matt = seen({"--no-reflections"});
+  c.scene.materials[0].metallic = 0;
+  c.scene.materials[0].roughness = 1;
+  write_package(package(), c);
+  EXPECT_EQ(matt, seen({})) << "without reflections a metal is as if matt";
+  EXPECT_GT(matt, 0);
 }
 
 TEST_F(MixRender, BadRequestsAreOneLineAndLeaveNothing) {

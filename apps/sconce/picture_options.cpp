@@ -53,7 +53,7 @@ void PictureOptions::declare(Options& options) {
   options.option("--size", &size, "WIDTHxHEIGHT, or WIDTH at the camera's aspect (default: 1280)");
   options.option("--samples", &samples, "per pixel; 1 looks at pixel centres");
   options.flag("--no-reflections", &no_reflections,
-               "mirrors, metals and glossy surfaces show nothing of what they mirror: as OpenGL draws");
+               "no reflections are followed: metals are as if matt, gloss shows nothing, as OpenGL draws");
   tone.declare(options);
   options.option(
       "--device", &device,

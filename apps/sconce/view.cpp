@@ -29,7 +29,7 @@ int run_view(int argc, const char* const* argv) {
   options.option("--size", &size, "WIDTHxHEIGHT of the window (default: as the last time)");
   options.flag(
       "--no-reflections", &no_reflections,
-      "mirrors, metals and glossy surfaces show nothing of what they mirror, even while nothing moves");
+      "no reflections are followed, even while nothing moves: metals are as if matt");
   options.flag("--forget", &forget, "neither reads nor keeps sizes and recent files");
   if (const auto code = options.parse(argc, argv)) return *code;
 

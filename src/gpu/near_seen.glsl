@@ -21,5 +21,6 @@ vec3 near_seen(SconceSurface s) {
     float lux = near_lux(i, p, to, 1.0);
     sum += lux * cosine, glints += lux * lobe;
   }
-  return near_color * s.albedo * 0.318309886 * sum + near_shine * glints;
+  vec3 albedo = mirrors ? s.base * (1.0 - s.metallic) : s.base;  // metals that mirror nothing are as if matt
+  return near_color * albedo * 0.318309886 * sum + near_shine * glints;
 }

@@ -12,8 +12,8 @@ uniform vec2 sconce_seen_shift;  // of the picture below its sampling points, in
 layout(rgba32f, binding = 0) uniform image2D sconce_seen;
 
 struct SconceSurface {
-  bool lit, there;                                 // something that is not black; and not all of it mirrors
-  vec3 place, normal, face, albedo, base, to_eye;  // albedo: of what is diffuse
+  bool lit, there;                       // something; that is not black
+  vec3 place, normal, face, base, to_eye;  // base: colour, of metals, too
   float metallic, roughness;
 };
 
@@ -35,8 +35,7 @@ SconceSurface sconce_surface(ivec2 at) {
   s.face = sconce_octahedral(surface.z);
   s.base = vec3(unpackUnorm2x16(surface.w), more.x);
   s.metallic = more.y;
-  s.albedo = s.base * (1.0 - s.metallic);
-  s.there = s.albedo != vec3(0.0);
+  s.there = s.base != vec3(0.0);
   return s;
 }
 
@@ -45,7 +44,7 @@ void sconce_add_radiance(ivec2 at, vec3 light) {
   imageStore(sconce_seen, at, imageLoad(sconce_seen, at) + vec4(light, 0.0));
 }
 
-// e: illuminance, lux
+// e: illuminance, lux; metals are as if matt
 void sconce_add(ivec2 at, SconceSurface surface, vec3 e) {
-  sconce_add_radiance(at, surface.albedo * 0.318309886 * e);
+  sconce_add_radiance(at, surface.base * 0.318309886 * e);
 }

@@ -63,11 +63,22 @@ bool passes(float base_alpha) {
   return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715)))) < share;
 }
 
+#ifdef PANES  // who draws sees what is behind, and mixes: clear + (1 - clear) * (tint * behind + seen)
+float pane_clear;
+vec3 pane_tint;
+#endif
+
 void main() {
   vec4 base = texture(base_map, base_uv) * vec4(base_color, alpha);
+#ifdef PANES
+  if (base.a < alpha_cutoff) discard;
+  pane_clear = blends ? 1.0 - base.a : 0.0;
+  pane_tint = transmission * base.rgb;
+#else
   if (base.a < alpha_cutoff || passes(base.a)) discard;
+#endif
   vec2 rough_metal = vec2(roughness, metallic) * texture(metallic_map, metallic_uv).gb;
-  vec3 albedo = base.rgb * (1.0 - rough_metal.y);
+  vec3 albedo = base.rgb;  // metals are as if matt
   int page = gl_FrontFacing ? front_page : back_page;
   vec3 offset = gl_FrontFacing ? normal_offset() : -normal_offset();
   vec3 light = page < 0 ? vec3(0.0) : illuminance(gl_FrontFacing ? front_uv : back_uv, page, offset);
@@ -76,12 +87,15 @@ void main() {
   if (look != 0) {
     vec3 n = (gl_FrontFacing ? front_normal() : -front_normal()) + offset;
     seen.rgb = look == 1   ? light
-               : look == 2 ? albedo
+               : look == 2 ? albedo * (1.0 - rough_metal.y)
                : look == 3 ? 0.5 + 0.5 * n
                            : charts(gl_FrontFacing ? front_uv : back_uv, page);
     seen.a = 0.0;
     return;
   }
+#ifdef PANES
+  albedo *= 1.0 - transmission;
+#endif
   seen = vec4(albedo * light * 0.318309886 + weight * shines, any(notEqual(shines, vec3(0.0))) ? 1.0 : 0.0);
 #ifdef SEEN_SURFACES
   bool lit = gl_FrontFacing || double_sided;

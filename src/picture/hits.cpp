@@ -63,7 +63,7 @@ CameraHits View::hits(const Camera& camera, const PictureParams& params, int s,
             hits.pixels[y * static_cast<std::size_t>(params.width) + static_cast<std::size_t>(x)];
         pixel.page = static_cast<uint16_t>(side.page);
         set_place(pixel, side.at(hit.barycentric), hits);
-        const Rgb albedo = passed * surface.receiver_albedo() * kInvPi;
+        const Rgb albedo = passed * surface.base_color * kInvPi;  // metals as if matt
         pixel.albedo = {float_to_half(albedo.r), float_to_half(albedo.g), float_to_half(albedo.b)};
       }
     }

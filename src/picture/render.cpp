@@ -74,9 +74,10 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
     if (!sight.mix.components.empty()) seen.shading_normal += mapped();
     light += sight.added(seen);
   }
-  const Rgb diffuse = surface.receiver_albedo() * light * kInvPi + through;
-  if (!lit || sight.reflections == 0 || !mirrors(surface)) return diffuse;
+  // The last surface in a row is as if matt, the first one where none is followed.
   if (met == sight.reflections) return surface.base_color * light * kInvPi + through;
+  const Rgb diffuse = surface.receiver_albedo() * light * kInvPi + through;
+  if (!lit || !mirrors(surface)) return diffuse;
 
   at.shading_normal += mapped();
   const bool wide = surface.roughness > kSharp;

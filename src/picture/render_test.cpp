@@ -16,10 +16,11 @@ TEST_F(Picture, EvenLightOnAnEvenWall) {
   expect_all(render(constant(100), 0.25f), Rgb(0.5f * kInvPi * 25));
 }
 
-TEST_F(Picture, MetalsReflectNoDiffuseLight) {
+// Where no reflection is followed they show what they would mirror of even light: rho/pi E, as in bounces.
+TEST_F(Picture, MetalsAreMattWithoutReflections) {
   PackageContents c = constant(100);
   c.scene.materials[0].metallic = 0.75f;
-  expect_all(render(c), Rgb(0.25f * 0.5f * kInvPi * 100));
+  expect_all(render(c), Rgb(0.5f * kInvPi * 100));
 }
 
 TEST_F(Picture, TextureTimesLight) {

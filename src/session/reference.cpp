@@ -22,7 +22,7 @@ ReferencePicture::ReferencePicture(const View& view, const Camera& camera, const
         if (!hit.back || view.side(hit.triangle, true).page >= 0) {
           points_.push_back(surface_point(view.world(), hit));
           pixels_.push_back(pixel);
-          albedos_.push_back(surface.receiver_albedo());
+          albedos_.push_back(surface.base_color);  // metals as if matt
         }
       }
       for_each_shine(view.scene(), view.world(), ray, hit, emission, [&](Id<LightGroup> group, const Rgb& c) {

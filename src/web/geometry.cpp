@@ -163,6 +163,8 @@ Json write_materials(const Scene& scene, bool normal_maps) {
                    {"metallic", m.metallic},
                    {"emission", json_of(m.emission)},
                    {"doubleSided", m.double_sided},
+                   {"blends", scene.passes(m) && m.alpha_mode == Material::Alpha::blend},
+                   {"transmission", scene.passes(m) ? m.transmission * (1 - m.metallic) : 0.0f},
                    {"baseMap", json_of(m.base_color_texture.texture)},
                    {"metallicMap", json_of(m.metallic_roughness_texture.texture)},
                    {"emissionMap", json_of(m.emits() ? m.emission_texture.texture : Id<Texture>())},

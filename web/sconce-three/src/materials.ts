@@ -6,6 +6,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   ClampToEdgeWrapping,
+  CustomBlending,
   DataTexture,
   FrontSide,
   GLSL3,
@@ -15,11 +16,14 @@ import {
   MirroredRepeatWrapping,
   NearestFilter,
   NoColorSpace,
+  OneFactor,
   RepeatWrapping,
   ShaderMaterial,
+  SrcColorFactor,
   SRGBColorSpace,
   Texture,
   Vector3,
+  ZeroFactor,
 } from 'three';
 
 import { fetchBlob, fetchPacked } from './fetch.js';
@@ -79,6 +83,33 @@ const kFinish: Record<Output, string> = {
 `,
 };
 
+/**
+ * Panes are drawn twice, in any order: what passes multiplies the picture behind, what they show is added. Blending is of
+ * codes, as everywhere on the web, and a tint multiplies as light does.
+ */
+const kPaneFinish: Record<Output, string> = {
+  display: `#if PANES == 1
+  seen = vec4(pane_clear + (1.0 - pane_clear) * linear_to_srgb(pane_tint), 1.0);
+#else
+  float kept = 1.0 - transmission;  // what glass adds, where it is as bright as what is behind
+  vec3 all = linear_to_srgb(tone_map(seen.rgb / max(kept, 1e-4) * sconce_exposure, sconce_tone));
+  seen = vec4((1.0 - pane_clear) * all * (linear_to_srgb(pane_tint + kept) - linear_to_srgb(pane_tint)), 1.0);
+#endif
+`,
+  linear: `#define gl_FragColor seen
+#if PANES == 1
+  seen = vec4(pane_tint, 1.0);
+  #include <colorspace_fragment>
+  seen.rgb = pane_clear + (1.0 - pane_clear) * seen.rgb;
+#else
+  seen = vec4(seen.rgb * sconce_exposure, 1.0);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+  seen.rgb *= 1.0 - pane_clear;
+#endif
+`,
+};
+
 function finished(main: string, tone: string, output: Output): string {
   return `${main}
 ${tone}
@@ -87,10 +118,16 @@ uniform float sconce_exposure;
 uniform int sconce_read;  // 1: lux, 2: cd/m2, instead of a picture
 
 void main() {
+#ifdef PANES
+  if (sconce_read != 0) discard;  // the light behind is read
+#endif
   sconce_main();
   if (sconce_read == 1) seen = vec4(sconce_lux, 1.0);
   if (sconce_read != 0) return;
-${kFinish[output]}}
+#ifdef PANES
+${kPaneFinish[output]}#else
+${kFinish[output]}#endif
+}
 `;
 }
 
@@ -110,6 +147,14 @@ ${site.surface}
   return finished(surface, tone, output);
 }
 
+/** Whether what is behind shows through. */
+export function isPane(m: SiteMaterial): boolean {
+  return m.blends || m.transmission > 0;
+}
+
+/** How a batch is drawn: as an opaque surface, or as a pane: what passes it, then what it shows itself. */
+export type Pass = 'opaque' | 'passing' | 'own';
+
 export function surfaceMaterial(
   site: Site,
   batch: Site['geometry']['batches'][number],
@@ -117,13 +162,25 @@ export function surfaceMaterial(
   weights: Vector3[],
   shared: Uniforms,
   side: typeof FrontSide | typeof BackSide,
+  pass: Pass,
 ): ShaderMaterial {
   const m: SiteMaterial = site.materials[batch.material]!;
+  const pane = pass !== 'opaque';
   const map = (index: number): IUniform => pictures[index] ?? { value: kWhite };
   return new ShaderMaterial({
     name: m.name,
     glslVersion: GLSL3,
     side,
+    visible: pane === isPane(m),
+    ...(pane && {
+      transparent: true,
+      depthWrite: false,
+      blending: CustomBlending,
+      blendSrc: pass === 'passing' ? ZeroFactor : OneFactor,
+      blendDst: pass === 'passing' ? SrcColorFactor : OneFactor,
+      blendSrcAlpha: ZeroFactor,
+      blendDstAlpha: OneFactor,
+    }),
     // Fronts win where both meet at an edge, and depth is too coarse to tell.
     polygonOffset: side === BackSide,
     polygonOffsetFactor: 4,
@@ -132,6 +189,7 @@ export function surfaceMaterial(
     defines: {
       ...(side === BackSide ? { gl_FrontFacing: '(!gl_FrontFacing)' } : {}),
       ...(site.coefficients > 1 ? { NORMAL_MAPS: '' } : {}),
+      ...(pane ? { PANES: pass === 'passing' ? 1 : 2 } : {}),
     },
     vertexShader: kVertex,
     uniforms: {
@@ -149,6 +207,8 @@ export function surfaceMaterial(
       emission: { value: new Vector3(...m.emission) },
       weight: { value: weights[batch.group] ?? new Vector3(1, 1, 1) },
       double_sided: { value: m.doubleSided },
+      blends: { value: m.blends },
+      transmission: { value: m.transmission },
     },
   });
 }

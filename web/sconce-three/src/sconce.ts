@@ -27,11 +27,13 @@ import { autoExposure, ev100Exposure, Meter, type Metering } from './exposure.js
 import { type Arrived, fetchPacked } from './fetch.js';
 import { Layers } from './layers.js';
 import {
+  isPane,
   kWhite,
   loadPicture,
   movableMaterial,
   movableShader,
   type Output,
+  type Pass,
   skyMaterial,
   skyShader,
   surfaceMaterial,
@@ -104,12 +106,18 @@ export class Sconce extends Group {
       sconce_read: { value: 0 },
     };
     this.pictures = site.textures.map(() => ({ value: kWhite }));
-    this.sides = ([FrontSide, BackSide] as const).map((side) => {
-      const materials = site.geometry.batches.map((batch) =>
-        surfaceMaterial(site, batch, this.pictures, this.shown, this.shared, side),
-      );
-      return new Mesh(geometry, materials);
-    });
+    const panes = site.geometry.batches.some((batch) => isPane(site.materials[batch.material]!));
+    const passes: Pass[] = panes ? ['opaque', 'passing', 'own'] : ['opaque'];
+    this.sides = passes.flatMap((pass, order) =>
+      ([FrontSide, BackSide] as const).map((side) => {
+        const materials = site.geometry.batches.map((batch) =>
+          surfaceMaterial(site, batch, this.pictures, this.shown, this.shared, side, pass),
+        );
+        const mesh = new Mesh(geometry, materials);
+        mesh.renderOrder = order;
+        return mesh;
+      }),
+    );
     this.add(...this.sides);
     this.addSky();
     this.writeShaders();

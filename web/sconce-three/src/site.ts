@@ -50,6 +50,10 @@ export interface SiteMaterial {
   metallic: number;
   emission: Rgb;
   doubleSided: boolean;
+  /** Its alpha mixes it with what is behind. */
+  blends: boolean;
+  /** Share of the light on it that goes straight through, in its colour. */
+  transmission: number;
   baseMap: number;
   metallicMap: number;
   emissionMap: number;
