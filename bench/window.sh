@@ -11,6 +11,7 @@ trap 'rm -rf "$work"' EXIT
 "$build/sconce" bake "$root/scenes/theatre.glb" -o "$work/theatre.sconce" --atlas 1024 --samples 8 --encoding f16 --quiet
 
 {
+  echo "settle  # the package is open, and drawn"
   echo "frames 40"
   echo "times $work/start.csv"
   for i in $(seq 120); do echo "set chandelier=0.$((100 + i))"; done
