@@ -34,7 +34,7 @@ TEST_F(ViewTest, PicturesAreTheCpusWhateverTheFaders) {
   EXPECT_EQ(png("all.png").width, 900);
 }
 
-// OpenGL draws the mirror black; at rest rays show in it what `render` does, and it follows the faders.
+// OpenGL draws the mirror as if matt; at rest rays show in it what `render` does, and it follows the faders.
 TEST_F(ViewTest, MirrorsAreFollowedAtRest) {
   Scene room = test::two_lamp_room();
   Material& mirror = room.materials.emplace_back(room.materials[0]);
@@ -173,28 +173,45 @@ TEST_F(ViewTest, LampsBecomeOthersAndShadersAreReadAgain) {
   EXPECT_EQ(read_file(path("own.txt")).find('#'), std::string::npos);
 }
 
-// Kinds of lamps by words and by a dropped photometric file; `relight --kind` says how each must look.
+// Kinds of lamps by words and by a dropped photometric file, a lamp that is turned, and all that kept by a
+// preset; `relight` says how each must look.
 TEST_F(ViewTest, LampsBecomeMeasuredOnesAndSuns) {
   bake_movable(test::two_lamp_court());
   folder_.write("lamp.ies", test::kPhotometricLamp);
-  const std::string sun = "sun,direction=0.2,-1,-0.1,intensity=90,kelvin=5500";
+  const std::string sun = "sun,direction=0.2,-1,-0.1,intensity=90,kelvin=5500", lamp = " \"lamp left\" ";
+  const auto picture = [&](const std::string& name) { return "\nsettle\npicture " + path(name) + "\n"; };
   const auto outcome =
-      view("ev100 3\nset right=off left=50%\nsettle\nlamp \"lamp left\" 0,1.4,0.2\ndrop " + path("lamp.ies") +
-           "\nsettle\npicture " + path("measured.png") + "\nscreenshot " + path("all.png") +
-           "\nkind \"lamp left\" " + sun + "\nsettle\npicture " + path("sun.png") + "\n");
+      view("ev100 3\nset right=off left=50%\nsettle\nlamp" + lamp + "0,1.4,0.2\ndrop " + path("lamp.ies") +
+           picture("measured.png") + "kind" + lamp + sun + picture("sun.png") + "kind" + lamp + "own\naim" +
+           lamp + "0.9,0.9,0.2" + picture("aimed.png") + "save " + path("aimed.toml") +
+           "\nhome\nsettle\ndrop " + path("aimed.toml") + "\nwait 1.2" + picture("again.png"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const auto expect_relit = [&](const std::string& picture, const std::string& kind) {
-    const Image8 seen = png(picture);
-    const auto relit = test::run_sconce(
-        {"relight", path("x.sconce"), "right=off", "left=50%", "--move", "lamp left=0,1.4,0.2", "--kind",
-         "lamp left=" + kind, "--ev100", "3", "--device", "cpu", "--size",
-         std::to_string(seen.width) + "x" + std::to_string(seen.height), "-o", path("relit.png")});
-    ASSERT_EQ(relit.code, 0) << relit.err;
-    EXPECT_LE(mean_difference(seen, png("relit.png")), 2) << kind;
+  EXPECT_LE(mean_difference(png("again.png"), png("aimed.png")), 0.01) << "a preset keeps lamps";
+  const auto run = [&](std::vector<std::string> words, const std::string& to, const std::string& size) {
+    for (const char* word : {"--device", "cpu", "--size"}) words.emplace_back(word);
+    words.push_back(size), words.push_back("-o"), words.push_back(path(to));
+    words.insert(words.begin() + 1, path("x.sconce"));
+    const auto done = test::run_sconce(words);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.err;
   };
-  expect_relit("measured.png", "luminaire,file=" + path("lamp.ies"));
-  expect_relit("sun.png", sun);
-  EXPECT_GT(mean_difference(png("measured.png"), png("sun.png")), 4);
+  const std::string place = "lamp left=0,1.4,0.2";
+  const Image8 seen = png("sun.png");
+  const std::string size = std::to_string(seen.width) + "x" + std::to_string(seen.height);
+  for (const auto& [name, kind] : {std::pair<std::string, std::string>{"sun.png", sun},
+                                   {"measured.png", "luminaire,file=" + path("lamp.ies")}}) {
+    run({"relight", "right=off", "left=50%", "--move", place, "--kind", "lamp left=" + kind, "--ev100", "3"},
+        "relit.png", size);
+    EXPECT_LE(mean_difference(png(name), png("relit.png")), 2) << kind;
+  }
+  EXPECT_GT(mean_difference(png("measured.png"), seen), 4);
+  run({"relight", "right=off", "left=50%", "--move", place + ",target=0.9,0.9,0.2", "--ev100", "3"},
+      "words.exr", "40x30");
+  run({"relight", "--preset", path("aimed.toml")}, "preset.exr", "40x30");
+  EXPECT_EQ(read_exr(path("preset.exr")).data, read_exr(path("words.exr")).data);
+  EXPECT_NE(
+      run({"render", "--preset", path("aimed.toml")}, "r.png", "8x6").find("stay where they were baked"),
+      std::string::npos);
 }
 
 TEST_F(ViewTest, PresetsFadeAndFilesDrop) {

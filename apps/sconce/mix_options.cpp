@@ -36,6 +36,8 @@ Preset MixOptions::preset() const {
 
 MixSpec MixOptions::make(const Preset& preset, std::span<const GroupInfo> groups,
                          const Progress& progress) const {
+  if (!preset.lamps.empty() && !moves_lamps)
+    progress.warn("the preset's lamps stay where they were baked: sconce relight --preset moves them");
   std::vector<std::string> all = preset.assignments;
   all.insert(all.end(), settings.begin(), settings.end());
   return make_mix(groups, all, others.empty() ? preset.others : others,

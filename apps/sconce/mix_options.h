@@ -17,6 +17,7 @@ struct MixOptions {
   std::vector<std::string> settings;
   std::string preset_file, others;
   bool raw = false;
+  bool moves_lamps = false;  ///< those of a preset; else they stay, which is said
 
   void declare(Options& options);
   /// The package to mix: as it stands, or as it was before the denoiser. @throws Error

@@ -62,6 +62,7 @@ int run_relight(int argc, const char* const* argv) {
   bool pixels = false;
   double cull = 0;
   MixOptions settings;
+  settings.moves_lamps = true;
   PictureOptions picture;
   RelightDevice device;
   Options options(
@@ -112,7 +113,7 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    const WantedLamps wanted = words.parse(progress);
+    const WantedLamps wanted = words.parse(preset, progress);
     const Package package = settings.open(input);
     const Operator op = find_operator(package, pixels ? picture.camera : "");
     const View view(package);

@@ -24,9 +24,10 @@ LampChange parse_move(const std::string& text) {
   const std::size_t equals = place.rfind('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError(std::string(kMove), "'" + text + "' is not understood", "LAMP=X,Y,Z[,target=X,Y,Z]");
-  LampPlace to{parse_point(place.substr(equals + 1), "--move"), {}};
-  if (target != std::string::npos) to.target = parse_point(text.substr(target + kTarget.size()), "--move");
-  return {place.substr(0, equals), to};
+  LampChange change{place.substr(0, equals), parse_point(place.substr(equals + 1), "--move")};
+  if (target != std::string::npos)
+    change.target = parse_point(text.substr(target + kTarget.size()), "--move");
+  return change;
 }
 
 /// `LAMP=WORDS`: as the words begin with a kind, the name ends before the last `=KIND`.
@@ -34,7 +35,7 @@ LampChange parse_kind_option(const std::string& text) {
   const std::size_t equals = text.substr(0, text.find(',')).rfind('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw UsageError(std::string(kKind), "'" + text + "' is not understood", "LAMP=KIND[,KEY=VALUE...]");
-  return {text.substr(0, equals), {}, text.substr(equals + 1)};
+  return {text.substr(0, equals), {}, {}, text.substr(equals + 1)};
 }
 
 void add(OtherKind made, const Rgb& weight, MoreLights& more, std::vector<gpu::LampShader>& shaders) {
@@ -57,6 +58,12 @@ Id<LightGroup> find_group(const Scene& scene, const std::string& name) {
     throw UsageError("--light group", "unknown group '" + name + "'" + did_you_mean(name, known),
                      join(known, ", "));
   return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
+}
+
+Vec3 middle_of(const Lamps& lamps, std::span<const std::size_t> some) {
+  Vec3 sum(0);
+  for (const std::size_t i : some) sum += place_of(lamps.all()[i]).value_or(Vec3(0));
+  return sum / static_cast<float>(some.size());
 }
 
 /// Without the lamps that shine as something else.
@@ -96,7 +103,7 @@ void LampWords::declare(Options& options) {
                  "several times");
 }
 
-WantedLamps LampWords::parse(const Progress& progress) const {
+WantedLamps LampWords::parse(const Preset& preset, const Progress& progress) const {
   constexpr std::string_view kGroup = "group,name=";
   WantedLamps wanted;
   for (const std::string& text : lights) {
@@ -106,15 +113,21 @@ WantedLamps LampWords::parse(const Progress& progress) const {
       add(parse_kind(text, "--light " + text, progress), Rgb(1), wanted.more, wanted.shaders);
   }
   if (!file.empty()) append(wanted.more, read_lights(file, progress));
-  for (const std::string& text : moves) wanted.changes.push_back(parse_move(text));
+  for (const PresetLamp& lamp : preset.lamps)
+    wanted.changes.push_back({lamp.name, lamp.at, lamp.target, lamp.kind});
+  const auto change_of = [&](const std::string& name) -> LampChange& {
+    for (LampChange& change : wanted.changes)
+      if (change.name == name) return change;
+    return wanted.changes.emplace_back(LampChange{name});
+  };
+  for (const std::string& text : moves) {
+    const LampChange to = parse_move(text);
+    LampChange& change = change_of(to.name);
+    change.at = to.at, change.target = to.target;
+  }
   for (const std::string& text : kinds) {
-    LampChange change = parse_kind_option(text);
-    const auto same = std::find_if(wanted.changes.begin(), wanted.changes.end(),
-                                   [&](const LampChange& c) { return c.name == change.name; });
-    if (same != wanted.changes.end())
-      same->kind = change.kind;
-    else
-      wanted.changes.push_back(std::move(change));
+    const LampChange to = parse_kind_option(text);
+    change_of(to.name).kind = to.kind;
   }
   if (wanted.more.lights.empty() && wanted.groups.empty() && wanted.changes.empty() && wanted.shaders.empty())
     throw UsageError({}, "no lamp to move: --light, --lights, --move or --kind",
@@ -130,19 +143,19 @@ RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamp
   std::vector<LampMove> leaving;
   std::vector<std::size_t> others;
   for (const LampChange& change : wanted.changes) {
-    const std::string option(change.to ? kMove : kKind);
-    LampPlace to = change.to.value_or(LampPlace{});
-    // What it becomes may point where it does not.
-    if (!change.kind.empty()) to.target.reset();
-    LampMove move = change.to ? find_move(scene, lamps, change.name, to, option)
-                              : find_lamps(scene, lamps, change.name, option);
+    const std::string option(change.kind.empty() ? kMove : kKind);
+    LampMove move = find_lamps(scene, lamps, change.name, option);
+    if (change.at || change.target) {
+      LampPlace to{change.at.value_or(middle_of(lamps, move.lamps)), change.target};
+      if (!change.kind.empty()) to.target.reset();  // what it becomes may point where it does not
+      move.motion = motion_to(lamps, move.lamps, to, change.name, option);
+    }
     if (change.kind.empty())
       out.moves.push_back(move);
     else
       for (const std::size_t i : move.lamps) {
         const Lamp& lamp = lamps.all()[i];
-        LampPlace at{Vec3(move.motion * glm::vec4(place_of(lamp).value_or(Vec3(0)), 1)), {}};
-        if (change.to) at.target = change.to->target;
+        const LampPlace at{Vec3(move.motion * glm::vec4(place_of(lamp).value_or(Vec3(0)), 1)), change.target};
         others.push_back(i);
         const Rgb weight = weight_of(lightmap, lamp.group);
         if (!weight.is_black())

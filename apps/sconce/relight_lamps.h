@@ -14,8 +14,9 @@ namespace sconce::app {
 /// What becomes of a lamp, of all lamps of a name, or of a group.
 struct LampChange {
   std::string name;
-  std::optional<LampPlace> to{};  ///< none: where it stands
-  std::string kind{};             ///< of become(); "" = its own
+  std::optional<Vec3> at{};      ///< none: where it stands
+  std::optional<Vec3> target{};  ///< that it is turned to
+  std::string kind{};            ///< of become(); "" = its own
 };
 
 struct WantedLamps {
@@ -31,8 +32,9 @@ struct LampWords {
   std::string file;
 
   void declare(Options& options);
+  /// @param preset  whose lamps the words change further
   /// @throws UsageError; Error for files
-  WantedLamps parse(const Progress& progress) const;
+  WantedLamps parse(const Preset& preset, const Progress& progress) const;
 };
 
 /// The same in the package's terms.

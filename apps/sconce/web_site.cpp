@@ -55,8 +55,11 @@ web::SiteReport write_web_site(const std::string& input, const fs::path& folder,
   if (!web.encoding.empty()) params.encoding = parse_encoding(web.encoding);
   params.cameras = package.scene().cameras;
   if (params.cameras.empty()) params.cameras.push_back(View(package).camera({}, progress));
-  for (const std::string& file : web.presets)
+  for (const std::string& file : web.presets) {
     params.presets.emplace_back(fs::path(file).stem().string(), read_preset(file));
+    if (!params.presets.back().second.lamps.empty())
+      progress.warn(file + ": the page moves no lamps: they stay where they were baked");
+  }
   fs::create_directories(folder / "scene");
   fs::copy(page, folder, fs::copy_options::recursive);
   return write_site(package, folder / "scene", params, progress);

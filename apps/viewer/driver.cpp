@@ -115,6 +115,10 @@ bool Driver::lamp(const Action& action) {
     for (const std::size_t lamp : found) v.set_kind(lamp, arguments[1] == "own" ? "" : arguments[1]);
     if (const std::string& problem = s.lamps.mover->problem(); !problem.empty()) throw Error(where, problem);
   }
+  if (word == "aim") {
+    const auto to = numbers(action, 1, 3);
+    for (const std::size_t lamp : found) v.aim_lamp(lamp, {to[0], to[1], to[2]});
+  }
   if (word == "lamp") {
     const auto to = numbers(action, 1, 3);
     v.move_lamp(found.front(), {to[0], to[1], to[2]}, false);
@@ -231,8 +235,8 @@ bool Driver::perform(const Action& action) {
     return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values),
            true;
   }
-  if (word == "lamp" || word == "kind" || word == "grab" || word == "tug" || word == "home" ||
-      word == "moves")
+  if (word == "lamp" || word == "kind" || word == "aim" || word == "grab" || word == "tug" ||
+      word == "home" || word == "moves")
     return lamp(action);
   if (word == "seek") return v.seek(), frames_ = 1, true;
   if (word == "scene") return v.save_scene(arguments[0]), true;

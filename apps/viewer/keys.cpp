@@ -21,6 +21,8 @@ void Viewer::keys() {
   if (pressed("tab")) state_.panels = !state_.panels;
   if (pressed("l")) state_.lamps.shown = !state_.lamps.shown;
   if (pressed("h")) put_lamp_back();
+  if (pressed("t") && state_.lamps.chosen && state_.under && state_.under->surface)
+    attempt([&] { aim_lamp(*state_.lamps.chosen, state_.under->position); });
   if (pressed("i")) state_.reading = !state_.reading;
   if (pressed("x")) session.meter_once(metering_now());
   if (pressed("p") || pressed("f12")) attempt([&] { screenshot(); });

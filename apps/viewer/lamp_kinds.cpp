@@ -62,7 +62,7 @@ void Viewer::set_kind(std::size_t lamp, const std::string& kind) {
 
 OtherLamp Viewer::other_lamp(std::size_t lamp, const MovedLamp& state) {
   const Movable& movable = state_.lamps.mover->movable();
-  auto made = request_.become(movable.lamps.all()[lamp], {state.at, {}}, state.kind);
+  auto made = request_.become(movable.lamps.all()[lamp], {state.at, state.target}, state.kind);
   if (const std::string file = file_of(state.kind); !file.empty()) {
     std::error_code ignored;
     state_.lamps.files[file] = fs::last_write_time(file, ignored);
@@ -86,18 +86,36 @@ void Viewer::watch_lamp_files() {
 
 void Viewer::lamp_section() {
   MovingLamps& lamps = state_.lamps;
-  if (lamps.mover == nullptr) return;
   ImGui::PushFont(fonts().strong);
   ImGui::TextUnformatted("Lamp");
   ImGui::PopFont();
+  if (lamps.mover == nullptr) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s",
+                        preparing_.running()
+                            ? "Reading how light goes on from lamps that move..."
+                            : "Lamps stay where they are: bake with --movable, or run sconce transfer.");
+    ImGui::PopTextWrapPos();
+    ImGui::Dummy({0, px(6)});
+    return ImGui::Separator();
+  }
   const MovedPlaces& moved = state_.session->mood().moved;
   if (lamps.chosen) {
     const std::size_t lamp = *lamps.chosen;
     const auto found = moved.find(lamp);
     const std::string kind = found != moved.end() ? found->second.kind : "";
-    ImGui::TextUnformatted(lamps.mover->movable().lamps.all()[lamp].name.c_str());
+    const Lamp& own = lamps.mover->movable().lamps.all()[lamp];
+    const std::string group =
+        own.group.valid() ? " \u00b7 " + state_.session->groups()[own.group.value].name : "";
+    const std::string title =
+        lamps.mover->movable().names[lamp] + group + fmt::format(" \u00b7 {:.0f} lm", luminance(own.flux));
+    ImGui::TextUnformatted(fitting(title, ImGui::GetContentRegionAvail().x).c_str());
+    tip(title.c_str());
+    const float gap = ImGui::GetStyle().ItemSpacing.x, width = ImGui::GetContentRegionAvail().x;
+    const auto count = static_cast<float>(request_.kinds.size() + 1);
     const auto choice = [&](const std::string& name, const std::string& words, bool lit) {
-      if (toggle(name.c_str(), name.c_str(), lit, palette::kAccent, px(64)) && !lit)
+      if (toggle(name.c_str(), name.c_str(), lit, palette::kAccent, (width - (count - 1) * gap) / count) &&
+          !lit)
         attempt([&] { set_kind(lamp, words); });
     };
     choice("own", "", kind.empty());
@@ -120,7 +138,9 @@ void Viewer::lamp_section() {
         "make "
         "this lamp of it; files are read again when they change");
   } else {
-    ImGui::TextDisabled("Click a lamp's ring to move it, or to make another one of it.");
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("Click a lamp's ring to move it, to turn it (T), or to make another one of it.");
+    ImGui::PopTextWrapPos();
   }
   ImGui::PushTextWrapPos();
   if (!lamps.problem.empty()) ImGui::TextColored({1, 0.55f, 0.4f, 1}, "%s", lamps.problem.c_str());

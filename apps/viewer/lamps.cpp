@@ -2,6 +2,7 @@
 // Lamps over the picture: chosen by a click, dragged by handles, their light following.
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "relight/package_operator.h"
 #include "viewer/viewer.h"
 #include "viewer/widgets.h"
@@ -69,6 +70,18 @@ void Viewer::move_lamp(std::size_t lamp, const Vec3& to, bool gesture) {
   Mood mood = state_.session->mood();
   mood.moved[lamp].at = glm::clamp(to, room.lo, room.hi);
   state_.session->change(mood, gesture ? fmt::format("lamp {}", lamp) : "");
+}
+
+void Viewer::aim_lamp(std::size_t lamp, const Vec3& target) {
+  Mood mood = state_.session->mood();
+  const auto found = mood.moved.find(lamp);
+  const bool own = found == mood.moved.end() || found->second.kind.empty();
+  const LampMover& mover = *state_.lamps.mover;
+  if (own && !axis_of(mover.movable().lamps.all()[lamp]))
+    throw Error("lamp '" + mover.movable().names[lamp] + "'", "shines all around: make a spot of it first");
+  const Vec3 at = mover.place(lamp, mood.moved).value_or(Vec3(0));
+  mood.moved[lamp].at = at, mood.moved[lamp].target = target;
+  state_.session->change(mood);
 }
 
 void Viewer::put_lamp_back() {
@@ -141,6 +154,14 @@ void Viewer::lamp_overlay() {
   const auto place = lamps.mover->place(*lamps.chosen, moved);
   const auto middle = place ? on_screen(from, *place) : std::nullopt;
   if (!middle) return;
+  const auto state = moved.find(*lamps.chosen);
+  const auto target =
+      state != moved.end() && state->second.target ? on_screen(from, *state->second.target) : std::nullopt;
+  if (target) {
+    draw.AddLine(*middle, *target, IM_COL32(0, 0, 0, 140), px(3));
+    draw.AddLine(*middle, *target, faded(palette::kAccent, 0.8f), px(1.2f));
+    draw.AddCircle(*target, px(4), palette::kAccent, 16, px(1.5f));
+  }
   const Gizmo gizmo = Gizmo::of(from, *place, px(kArrow));
   std::vector<ImVec2> square;
   for (const Vec3& corner : gizmo.square())

@@ -110,8 +110,7 @@ void Viewer::look_panel() {
   if (ImGui::Button(turning_ ? "Stop turning" : "Turntable", {half, 0}))
     turning_ ? stop_turn() : attempt([&] { begin_turn(); });
   tip("the camera turns once, around the scene or on its spot where walls stand in the way: a film where "
-      "ffmpeg is "
-      "installed, else 120 pictures");
+      "ffmpeg is installed, else 120 pictures");
 }
 
 }  // namespace sconce::viewer

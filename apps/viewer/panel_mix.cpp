@@ -11,6 +11,29 @@
 
 namespace sconce::viewer {
 
+namespace {
+
+constexpr std::size_t kRoomy = 8;  // groups; of more, words stand beside the name
+
+std::string in_words(const GroupInfo& group, const Fader& fader, double master, bool brief) {
+  if (!fader.on) return "off";
+  std::string words = fmt::format("{:+.1f} EV", stops_of(fader.gain));
+  if (!brief) words += fmt::format("  \u00d7{:.3g}", fader.gain);
+  if (group.lumens > 0) words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * master);
+  if (fader.color == Fader::Color::kelvin) words += fmt::format("  {:.0f} K", fader.kelvin);
+  return words;
+}
+
+void small_words(const std::string& words) {
+  ImGui::PushFont(fonts().small);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+}  // namespace
+
 void Viewer::side_panel(ImVec2 at, ImVec2 size) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
@@ -98,6 +121,19 @@ void Viewer::mix_panel() {
   }
 }
 
+std::string Viewer::about(std::size_t g) const {
+  const GroupInfo& group = state_.session->groups()[g];
+  if (state_.sheet)
+    return fmt::format("{}\nmean {:.3g} as rendered", group.name, state_.sheet->opened().means[g]);
+  const std::string flux = group.lumens > 0 ? fmt::format("{:.0f} lm as baked, ", group.lumens) : "";
+  std::string line = fmt::format("{}\n{}mean {:.1f} lux, noise {:.1f} %", group.name, flux, group.mean_lux,
+                                 100 * group.noise);
+  constexpr std::size_t kMost = 12;
+  for (std::size_t i = 0; i < std::min(kMost, group.lamps.size()); ++i) line += "\n  " + group.lamps[i];
+  if (group.lamps.size() > kMost) line += fmt::format("\n  and {} more", group.lamps.size() - kMost);
+  return line;
+}
+
 void Viewer::fader_row(std::size_t g) {
   Session& session = *state_.session;
   const GroupInfo& group = session.groups()[g];
@@ -105,6 +141,7 @@ void Viewer::fader_row(std::size_t g) {
   Fader& fader = mood.faders.groups[g];
   const MixSpec mix = session.mix();
   ImGui::PushID(static_cast<int>(g));
+  const bool compact = session.groups().size() > kRoomy;
   bool changed = false;
   std::string gesture;
 
@@ -118,20 +155,15 @@ void Viewer::fader_row(std::size_t g) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(fonts().strong);
   ImGui::PushStyleColor(ImGuiCol_Text, mix.weights[g].is_black() ? palette::kDim : palette::kText);
-  ImGui::TextUnformatted(group.name.c_str());
+  const float small = px(26), gap = px(4), chips = ImGui::GetContentRegionMax().x - 3 * small - 2 * gap;
+  const std::string words = in_words(group, fader, mood.faders.master, compact);
+  const float beside = compact ? width_of(fonts().small, words) + 2 * gap : 0;
+  ImGui::TextUnformatted(fitting(group.name, chips - ImGui::GetCursorPosX() - gap - beside).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
-  if (ImGui::IsItemHovered()) {
-    std::string lamps;
-    for (const std::string& lamp : group.lamps) lamps += "\n  " + lamp;
-    const std::string line = state_.sheet
-                                 ? fmt::format("mean {:.3g} as rendered", state_.sheet->opened().means[g])
-                                 : fmt::format("{:.0f} lm as baked, mean {:.1f} lux, noise {:.1f} %{}",
-                                               group.lumens, group.mean_lux, 100 * group.noise, lamps);
-    ImGui::SetTooltip("%s", line.c_str());
-  }
-  const float small = px(26), gap = px(4);
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - 3 * small - 2 * gap);
+  if (ImGui::IsItemHovered()) tip(about(g).c_str());
+  if (compact) ImGui::SameLine(chips - beside), small_words(words);
+  ImGui::SameLine(chips);
   if (color_chip("color", color, small)) ImGui::OpenPopup("colour");
   tip("colour: its own, kelvin, another one, or a tint");
   ImGui::SameLine(0, gap);
@@ -150,17 +182,7 @@ void Viewer::fader_row(std::size_t g) {
   if (changed) session.change(mood, gesture);
   if (move.released) session.end_gesture();
 
-  // In words.
-  ImGui::PushFont(fonts().small);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
-  std::string words =
-      fader.on ? fmt::format("{:+.1f} EV  \u00d7{:.3g}", stops_of(fader.gain), fader.gain) : "off";
-  if (fader.on && group.lumens > 0)
-    words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * mood.faders.master);
-  if (fader.color == Fader::Color::kelvin) words += fmt::format("  {:.0f} K", fader.kelvin);
-  ImGui::TextUnformatted(words.c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  if (!compact) small_words(words);
   ImGui::Dummy({0, px(1)});
   ImGui::PopID();
 }

@@ -108,9 +108,12 @@ void Viewer::drop(const fs::path& file) {
     if (!state_.lamps.chosen) throw Error(file.string(), "is a lamp: choose one that is to become it");
     return set_kind(*state_.lamps.chosen, kind);
   }
-  if (ends_with_any(file, {".toml"}) && state_.session)
-    return (void)state_.session->perform(
-        {"preset", {file.string(), fmt::format("{}", state_.fade_seconds)}, "drop"});
+  if (ends_with_any(file, {".toml"}) && state_.session) {
+    state_.session->perform({"preset", {file.string(), fmt::format("{}", state_.fade_seconds)}, "drop"});
+    if (state_.session->lamps().empty() && !read_preset(file).lamps.empty())
+      note("its lamps stay where they are: this package has no operator (sconce transfer)");
+    return;
+  }
   if (ends_with_any(file, {".png", ".jpg", ".jpeg", ".exr", ".hdr"}) && state_.session)
     return seek_picture(file);
   open(file);
@@ -187,7 +190,7 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
     return;
   }
   state_.camera = state_.opened->rays.camera("");
-  start_session(groups);
+  start_session(groups, movable_lamps(*state_.opened));
 }
 
 void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
@@ -202,8 +205,8 @@ void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
   start_session(state_.sheet->opened().picture.groups);
 }
 
-void Viewer::start_session(const std::vector<GroupInfo>& groups) {
-  state_.session = std::make_unique<Session>(groups);
+void Viewer::start_session(const std::vector<GroupInfo>& groups, std::vector<SceneLamp> lamps) {
+  state_.session = std::make_unique<Session>(groups, std::move(lamps));
   state_.scales.clear(), state_.goals.clear(), state_.sought.clear();
   state_.look = LookKind::picture;
   state_.plane.shown = false, state_.ball.reset();
@@ -338,7 +341,8 @@ void Viewer::save_preset() {
   const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}.toml", state_.file.stem().string(),
                                        fmt::localtime(std::time(nullptr)));
   const fs::path path = state_.file.parent_path() / name;
-  write_file(path, print_preset(to_preset(state_.session->groups(), state_.session->mood(), "")));
+  write_file(path, print_preset(to_preset(state_.session->groups(), state_.session->mood(), "",
+                                          state_.session->lamps())));
   note("preset written: " + path.string());
 }
 

@@ -134,7 +134,7 @@ class Viewer {
   void show(std::shared_ptr<const Opened> opened);
   void show(std::shared_ptr<const OpenedPicture> opened);
   /// Faders, exposure and scales as they are when something else is opened.
-  void start_session(const std::vector<GroupInfo>& groups);
+  void start_session(const std::vector<GroupInfo>& groups, std::vector<SceneLamp> lamps = {});
   void take_results();
   /// What was found by rays for what was shown.
   void forget_light();
@@ -158,6 +158,7 @@ class Viewer {
   /// @param gesture  further moves of the same lamp are the same step of undo
   void move_lamp(std::size_t lamp, const Vec3& to, bool gesture);
   void put_lamp_back();
+  void aim_lamp(std::size_t lamp, const Vec3& target);
   /// @param kind  see MovedLamp; "" = its own
   void set_kind(std::size_t lamp, const std::string& kind);
   /// What it has become. @throws Error
@@ -205,6 +206,8 @@ class Viewer {
   void side_panel(ImVec2 at, ImVec2 size);
   void mix_panel();
   void fader_row(std::size_t group);
+  /// A group in words: flux, light, lamps.
+  std::string about(std::size_t group) const;
   void color_popup(std::size_t group);
   void look_panel();
   void design_panel();

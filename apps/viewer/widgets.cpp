@@ -116,7 +116,22 @@ void kelvin_ramp(ImVec2 size) {
 }
 
 void tip(const char* text) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(px(320));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+std::string fitting(const std::string& line, float width) {
+  if (ImGui::CalcTextSize(line.c_str()).x <= width) return line;
+  std::string cut = line;
+  while (!cut.empty() && ImGui::CalcTextSize((cut + "...").c_str()).x > width) {
+    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80) cut.pop_back();
+    cut.pop_back();
+  }
+  return cut + "...";
 }
 
 void card(ImDrawList& draw, ImVec2 at, ImVec2 size) {

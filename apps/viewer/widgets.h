@@ -30,5 +30,7 @@ void text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const std::str
 float width_of(ImFont* font, const std::string& line);
 /// Of the last control, when the pointer rests on it.
 void tip(const char* text);
+/// The line, cut with "..." where it is wider, in the font that is in use.
+std::string fitting(const std::string& line, float width);
 
 }  // namespace sconce::viewer

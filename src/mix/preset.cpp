@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "core/error.h"
@@ -47,6 +48,43 @@ constexpr Field kFields[] = {{"others", &Preset::others},
                              {"tone", &Preset::tone},
                              {"camera", &Preset::camera}};
 
+std::optional<Vec3> vector_of(const std::filesystem::path& path, const std::string& lamp,
+                              std::string_view key, const toml::node& node) {
+  const auto wrong = [&] {
+    return UsageError(place(path, node.source()),
+                      "lamp '" + lamp + "': '" + std::string(key) + "' is no place", "[x, y, z] in metres");
+  };
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3) throw wrong();
+  Vec3 out(0);
+  for (int i = 0; i < 3; ++i) {
+    const auto number = (*array)[static_cast<std::size_t>(i)].value<double>();
+    if (!number || !std::isfinite(*number)) throw wrong();
+    out[i] = static_cast<float>(*number);
+  }
+  return out;
+}
+
+PresetLamp lamp_of(const std::filesystem::path& path, const std::string& name, const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr)
+    throw UsageError(place(path, node.source()), "lamp '" + name + "' is no table",
+                     "[lamp.\"" + name + "\"]");
+  PresetLamp lamp{name};
+  for (const auto& [key, value] : in_order(*table)) {
+    if (key == "at")
+      lamp.at = vector_of(path, name, key, *value);
+    else if (key == "target")
+      lamp.target = vector_of(path, name, key, *value);
+    else if (key == "kind")
+      lamp.kind = value_of(path, key, *value);
+    else
+      throw UsageError(place(path, value->source()), "lamp '" + name + "': unknown key '" + key + "'",
+                       "at, target, kind");
+  }
+  return lamp;
+}
+
 std::string* field_of(Preset& preset, std::string_view key) {
   for (const Field& field : kFields)
     if (field.key == key) return &(preset.*field.value);
@@ -72,11 +110,16 @@ Preset read_preset(const std::filesystem::path& path) {
             preset.assignments.push_back(group + "=" + value);
           }
         }
+      } else if (key == "lamp") {
+        const toml::table* lamps = node->as_table();
+        if (lamps == nullptr)
+          throw UsageError(place(path, node->source()), "'lamp' is no table", "[lamp.NAME]");
+        for (const auto& [name, lamp] : in_order(*lamps)) preset.lamps.push_back(lamp_of(path, name, *lamp));
       } else if (std::string* field = field_of(preset, key)) {
         *field = value_of(path, key, *node);
       } else {
         throw UsageError(place(path, node->source()), "unknown key '" + key + "'",
-                         "mix, others, exposure, ev100, tone, camera");
+                         "mix, lamp, others, exposure, ev100, tone, camera");
       }
     }
   } catch (const toml::parse_error& e) {
@@ -96,6 +139,14 @@ std::string print_preset(const Preset& preset) {
   for (const std::string& assignment : preset.assignments) {
     const std::size_t equals = assignment.rfind('=');
     text << quoted(assignment.substr(0, equals)) << " = " << quoted(assignment.substr(equals + 1)) << '\n';
+  }
+  for (const PresetLamp& lamp : preset.lamps) {
+    const auto vector = [&](const char* key, const std::optional<Vec3>& v) {
+      if (v) text << key << fmt::format(" = [{:.4f}, {:.4f}, {:.4f}]\n", v->x, v->y, v->z);
+    };
+    text << "\n[lamp." << quoted(lamp.name) << "]\n";
+    vector("at", lamp.at), vector("target", lamp.target);
+    if (!lamp.kind.empty()) text << "kind = " << quoted(lamp.kind) << '\n';
   }
   return std::move(text).str();
 }

@@ -45,6 +45,22 @@ TEST(Preset, PrintedOnesReadBack) {
   EXPECT_EQ(read.tone, "drago");
 }
 
+TEST(Preset, LampsReadBack) {
+  Preset preset;
+  preset.lamps = {{"a \"b\"#2", Vec3(1, -2.5f, 0.125f), Vec3(0, 1, 2), "spot,outer=40"},
+                  {"c", {}, {}, "point"}};
+  const TemporaryFolder folder;
+  write_file(folder / "p.toml", print_preset(preset));
+  const Preset read = read_preset(folder / "p.toml");
+  ASSERT_EQ(read.lamps.size(), 2u);
+  EXPECT_EQ(read.lamps[0].name, "a \"b\"#2");
+  EXPECT_EQ(read.lamps[0].at, Vec3(1, -2.5f, 0.125f));
+  EXPECT_EQ(read.lamps[0].target, Vec3(0, 1, 2));
+  EXPECT_EQ(read.lamps[0].kind, "spot,outer=40");
+  EXPECT_FALSE(read.lamps[1].at || read.lamps[1].target);
+  EXPECT_EQ(read.lamps[1].kind, "point");
+}
+
 TEST(Preset, BadFilesNameFileAndLine) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& text) -> std::string {
@@ -58,6 +74,10 @@ TEST(Preset, BadFilesNameFileAndLine) {
   };
   EXPECT_NE(error("\n\nmixx = 1\n").find("p.toml:3: unknown key 'mixx'"), std::string::npos);
   EXPECT_NE(error("mix = 1\n").find("p.toml:1"), std::string::npos);
+  EXPECT_NE(error("[lamp.a]\nat = [1, 2]\n").find("p.toml:2: lamp 'a': 'at' is no place"), std::string::npos);
+  EXPECT_NE(error("[lamp.a]\n\naim = [1, 2, 3]\n").find("p.toml:3: lamp 'a': unknown key 'aim'"),
+            std::string::npos);
+  EXPECT_NE(error("lamp = 3\n").find("p.toml:1: 'lamp' is no table"), std::string::npos);
   EXPECT_NE(error("[mix]\na = [1]\n").find("p.toml:2: 'a'"), std::string::npos);
   EXPECT_NE(error("[mix\n").find("p.toml:1"), std::string::npos);
   for (const std::string& text : broken_toml()) {

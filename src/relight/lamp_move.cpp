@@ -44,16 +44,33 @@ std::optional<Vec3> axis_of(const Lamp& lamp) {
   return std::nullopt;
 }
 
+std::vector<std::string> lamp_names(const Lamps& lamps) {
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return place_of(lamps.all()[b]) && lamps.all()[a].name == lamps.all()[b].name;
+  };
+  std::vector<std::string> names(lamps.size());
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    if (!place_of(lamps.all()[i])) continue;
+    std::size_t before = 0, all = 0;
+    for (std::size_t k = 0; k < lamps.size(); ++k)
+      if (same(i, k)) ++all, before += k < i ? 1 : 0;
+    names[i] = lamps.all()[i].name;
+    if (all > 1 || names[i].empty()) names[i] += "#" + std::to_string(before + 1);
+  }
+  return names;
+}
+
 LampMove find_lamps(const Scene& scene, const Lamps& lamps, const std::string& name,
                     const std::string& option) {
   LampMove move;
   std::vector<std::string> known;
+  const std::vector<std::string> names = lamp_names(lamps);
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps.all()[i];
     const std::string group = lamp.group.valid() ? scene[lamp.group].name : std::string();
     for (const std::string& word : {lamp.name, group})
       if (!word.empty() && !has(known, word)) known.push_back(word);
-    if (name != lamp.name && name != group) continue;
+    if (name != lamp.name && name != group && name != names[i]) continue;
     if (!place_of(lamp))
       throw UsageError(option, "'" + name + "' shines from everywhere", "a lamp that has a place");
     move.lamps.push_back(i);
@@ -65,12 +82,11 @@ LampMove find_lamps(const Scene& scene, const Lamps& lamps, const std::string& n
   return move;
 }
 
-LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,
-                   const std::string& option) {
-  LampMove move = find_lamps(scene, lamps, name, option);
+Mat4 motion_to(const Lamps& lamps, std::span<const std::size_t> some, const LampPlace& to,
+               const std::string& name, const std::string& option) {
   Vec3 sum(0);
   std::optional<Vec3> axis;
-  for (const std::size_t i : move.lamps) {
+  for (const std::size_t i : some) {
     sum += place_of(lamps.all()[i]).value_or(Vec3(0));
     if (!axis) axis = axis_of(lamps.all()[i]);
   }
@@ -82,8 +98,14 @@ LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& na
       throw UsageError(option, "'" + name + "' would stand on its target", "two places");
     turn = turning(glm::normalize(*axis), glm::normalize(direction));
   }
-  const Vec3 middle = sum / static_cast<float>(move.lamps.size());
-  move.motion = glm::translate(Mat4(1.0f), to.position) * turn * glm::translate(Mat4(1.0f), -middle);
+  const Vec3 middle = sum / static_cast<float>(some.size());
+  return glm::translate(Mat4(1.0f), to.position) * turn * glm::translate(Mat4(1.0f), -middle);
+}
+
+LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,
+                   const std::string& option) {
+  LampMove move = find_lamps(scene, lamps, name, option);
+  move.motion = motion_to(lamps, move.lamps, to, name, option);
   return move;
 }
 

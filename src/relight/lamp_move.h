@@ -28,8 +28,19 @@ std::optional<Vec3> place_of(const Lamp& lamp);
 /// Where a lamp points, unit; none for what shines all around, or from no plane.
 std::optional<Vec3> axis_of(const Lamp& lamp);
 
-/// The lamp of that name, all lamps where several bear it, or all of a group; their middle goes to the place,
-/// and the first that points anywhere points to the target.
+/// A name for each that no other has: its own, with "#2" behind it where it is the second of its name; "" for
+/// what shines from everywhere.
+std::vector<std::string> lamp_names(const Lamps& lamps);
+
+/// These lamps go to a place together, and the first that points anywhere points to the target.
+/// @param name    of them, for errors
+/// @param option  that asked for it
+/// @throws UsageError: a target for what points nowhere
+Mat4 motion_to(const Lamps& lamps, std::span<const std::size_t> some, const LampPlace& to,
+               const std::string& name, const std::string& option);
+
+/// The lamp of that name (lamp_names(), too), all lamps where several bear it, or all of a group; their
+/// middle goes to the place, and the first that points anywhere points to the target.
 /// @param option  that asked for it
 /// @throws UsageError: no such lamp, or one without a place (sun, sky), or a target for what points nowhere
 LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,

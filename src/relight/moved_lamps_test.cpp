@@ -203,5 +203,20 @@ TEST(MovedLamps, MeasuredLampsAndSunsJoin) {
   EXPECT_EQ(noon.illuminance(facing_up(Vec3(0, 0, 0)), 0, 0).g, 0) << "below the lamp";
 }
 
+// Each lamp has a name of its own; what shines from everywhere has none.
+TEST(MovedLamps, NamesAreUnique) {
+  Scene scene = lamp_scene();
+  Light other = scene.lights[0];
+  other.frame[3].x = 5;
+  Light noon;
+  noon.name = "noon", noon.shape = SunLight{}, noon.intensity = Rgb(1);
+  scene.lights.push_back(noon);
+  scene.lights.push_back(other);
+  const Room room(std::move(scene));
+  EXPECT_EQ(lamp_names(room.lamps), (std::vector<std::string>{"bulb#1", "", "bulb#2", "lamp"}));
+  EXPECT_EQ(find_lamps(room.scene, room.lamps, "bulb", "").lamps, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(find_lamps(room.scene, room.lamps, "bulb#2", "").lamps, std::vector<std::size_t>{2});
+}
+
 }  // namespace
 }  // namespace sconce

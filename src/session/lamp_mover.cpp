@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "core/error.h"
@@ -18,16 +17,17 @@ Movable::Movable(std::shared_ptr<const Opened> opened_, const Progress& progress
       bounces(op),
       atlas(package_atlas(opened->package, opened->rays)),
       texels(texel_receivers(opened->rays.traced(), atlas, progress)),
-      lamps(opened->rays.scene(), opened->rays.world()) {}
+      lamps(opened->rays.scene(), opened->rays.world()),
+      names(lamp_names(lamps)) {}
 
-MovedLamps Movable::alone(std::size_t lamp, const std::optional<Vec3>& at) const {
+MovedLamps Movable::alone(std::size_t lamp, const std::optional<MovedLamp>& to) const {
   const View& view = opened->rays;
   const Lamp& shape = lamps.all()[lamp];
   LampMove move{{lamp}, {shape.group}, Mat4(1.0f)};
-  if (at) move.motion = glm::translate(move.motion, *at - place_of(shape).value_or(*at));
+  if (to) move.motion = motion_to(lamps, move.lamps, {to->at, to->target}, names[lamp], "target");
   const MovedGroup group{shape.group, Rgb(1), {lamp}};
   return MovedLamps(view.scene(), view.world(), view.tracer(), {}, {&group, 1},
-                    {&move, at ? std::size_t{1} : 0});
+                    {&move, to ? std::size_t{1} : 0});
 }
 
 MovedLamps Movable::alone(const MoreLights& others) const {
@@ -38,6 +38,15 @@ MovedLamps Movable::alone(const MoreLights& others) const {
 std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
   return with_indirect(fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp),
                        opened->package, opened->rays, op, bounces, lamp);
+}
+
+std::vector<SceneLamp> movable_lamps(const Opened& opened) {
+  if (!std::filesystem::exists(operator_path(opened.package.path(), ""))) return {};
+  const Lamps lamps(opened.rays.scene(), opened.rays.world());
+  const std::vector<std::string> names = lamp_names(lamps);
+  std::vector<SceneLamp> out;
+  for (std::size_t i = 0; i < lamps.size(); ++i) out.push_back({names[i], place_of(lamps.all()[i])});
+  return out;
 }
 
 std::vector<std::size_t> LampMover::find(const std::string& name, const std::string& where) const {
@@ -75,7 +84,7 @@ LampMover::Lit LampMover::lit(std::size_t lamp, const MovedLamp& state) const {
   Lit made;
   made.state = state;
   if (state.kind.empty() || !other_) {
-    made.light = movable_->light(movable_->alone(lamp, state.at), false);
+    made.light = movable_->light(movable_->alone(lamp, state), false);
     return made;
   }
   OtherLamp other = other_(lamp, state);
@@ -102,9 +111,8 @@ std::optional<LampMover::Task> LampMover::rough() const {
 }
 
 LampMover::Fine LampMover::light(const Movable& movable, const Task& task, const Progress& progress) {
-  const std::optional<Vec3> at = task.state ? std::optional(task.state->at) : std::nullopt;
-  const MovedLamps lamp = task.other ? movable.alone(*task.other) : movable.alone(task.lamp, at);
-  return {task, movable.light(lamp, true, progress), at && !lamp.buried().empty()};
+  const MovedLamps lamp = task.other ? movable.alone(*task.other) : movable.alone(task.lamp, task.state);
+  return {task, movable.light(lamp, true, progress), task.state && !lamp.buried().empty()};
 }
 
 void LampMover::refine(const Fine& fine) {
@@ -142,9 +150,11 @@ std::vector<Image> LampMover::pages(Mixer& mixer, const MixSpec& mix) const {
 
 std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved) {
   std::vector<std::string> out;
+  const auto vector = [](const Vec3& v) { return fmt::format("{:.4f},{:.4f},{:.4f}", v.x, v.y, v.z); };
   for (const auto& [lamp, state] : moved)
-    out.push_back(fmt::format("{}={:.4f},{:.4f},{:.4f}{}", mover.movable().lamps.all()[lamp].name, state.at.x,
-                              state.at.y, state.at.z, state.kind.empty() ? "" : "  # as " + state.kind));
+    out.push_back(mover.movable().names[lamp] + "=" + vector(state.at) +
+                  (state.target ? ",target=" + vector(*state.target) : "") +
+                  (state.kind.empty() ? "" : "  # as " + state.kind));
   return out;
 }
 

@@ -21,8 +21,9 @@ struct Movable {
   Movable& operator=(const Movable&) = delete;
 
   /// A lamp alone, at unit weight.
-  /// @param at  where its middle is; none: where it was baked
-  MovedLamps alone(std::size_t lamp, const std::optional<Vec3>& at) const;
+  /// @param to  where it is; none: where it was baked
+  /// @throws UsageError: a target for what points nowhere
+  MovedLamps alone(std::size_t lamp, const std::optional<MovedLamp>& to) const;
   /// One that is none of the scene's.
   MovedLamps alone(const MoreLights& others) const;
   /// Its light on the operator's texels, direct and indirect, lux.
@@ -35,10 +36,14 @@ struct Movable {
   Atlas atlas;
   RelightReceivers texels;
   Lamps lamps;
+  std::vector<std::string> names;  ///< of each lamp, its own
 };
 
 /// What a lamp has become: one that rays know, or its light on the operator's texels, lux, at unit weight.
 using OtherLamp = std::variant<MoreLights, std::vector<Rgb>>;
+
+/// The lamps that a preset can move; none where the package has no operator.
+std::vector<SceneLamp> movable_lamps(const Opened& opened);
 
 class LampMover {
  public:
@@ -107,7 +112,7 @@ class LampMover {
   uint64_t version_ = 0;
 };
 
-/// `LAMP=X,Y,Z` of each, as `sconce relight --move` takes them.
+/// `LAMP=X,Y,Z[,target=X,Y,Z]` of each, as `sconce relight --move` takes them.
 std::vector<std::string> move_options(const LampMover& mover, const MovedPlaces& moved);
 
 }  // namespace sconce

@@ -37,6 +37,7 @@ constexpr ActionRow kRows[] = {
     {"figures", "FILE.csv", "writes minimum, average, maximum and uniformity of all planes, as mixed", 1, 1},
     {"wish", "X,Y,Z[,NX,NY,NZ] LUX", "a goal at a point, metres; faces up unless told otherwise", 2, 2},
     {"lamp", "LAMP X,Y,Z", "a lamp leaves its layer and shines from there", 2, 2},
+    {"aim", "LAMP X,Y,Z", "a lamp is turned to a place", 2, 2},
     {"grab", "LAMP", "shows the handles of a lamp", 1, 1},
     {"tug", "x|y|z|floor DX,DY", "the mouse drags that handle of the lamp by so many pixels", 2, 2},
     {"kind", "LAMP own|WORDS", "a lamp becomes another one: point, spot,outer=40, shader,file=barn.glsl", 2,

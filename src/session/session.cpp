@@ -37,9 +37,24 @@ double stops_in(const std::string& text) {
   return parse_number(text).value_or(0);
 }
 
+void move_lamps(const PresetLamp& lamp, std::span<const SceneLamp> lamps, MovedPlaces& moved) {
+  if (lamps.empty()) return;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    if (!lamps[i].place) continue;
+    if (lamps[i].name == lamp.name) {
+      moved[i] = {lamp.at.value_or(*lamps[i].place), lamp.target, lamp.kind};
+      return;
+    }
+    known.push_back(lamps[i].name);
+  }
+  throw UsageError({}, "no lamp '" + lamp.name + "'" + did_you_mean(lamp.name, known), join(known, ", "));
+}
+
 }  // namespace
 
-Preset to_preset(std::span<const GroupInfo> groups, const Mood& mood, const std::string& camera) {
+Preset to_preset(std::span<const GroupInfo> groups, const Mood& mood, const std::string& camera,
+                 std::span<const SceneLamp> lamps) {
   Preset preset = to_preset(groups, mood.faders);
   if (mood.automatic)
     preset.exposure = mood.stops == 0 ? "auto" : fmt::format("{:+.4g}", mood.stops);
@@ -47,20 +62,27 @@ Preset to_preset(std::span<const GroupInfo> groups, const Mood& mood, const std:
     preset.ev100 = fmt::format("{:.4g}", mood.ev100);
   preset.tone = mood.tone;
   preset.camera = camera;
+  for (const auto& [lamp, moved] : mood.moved)
+    if (lamp < lamps.size()) preset.lamps.push_back({lamps[lamp].name, moved.at, moved.target, moved.kind});
   return preset;
 }
 
-Mood to_mood(std::span<const GroupInfo> groups, const Preset& preset, const Mood& current) {
+Mood to_mood(std::span<const GroupInfo> groups, const Preset& preset, const Mood& current,
+             std::span<const SceneLamp> lamps) {
   Mood mood = current;
   mood.faders = to_faders(groups, preset);
   if (!preset.exposure.empty()) mood.automatic = true, mood.stops = stops_in(preset.exposure);
   if (!preset.ev100.empty()) mood.automatic = false, mood.ev100 = stops_in(preset.ev100);
   if (!preset.tone.empty()) mood.tone = find_tone_mapper(preset.tone).name;
+  if (!preset.lamps.empty() && !lamps.empty()) mood.moved.clear();
+  for (const PresetLamp& lamp : preset.lamps) move_lamps(lamp, lamps, mood.moved);
   return mood;
 }
 
-Session::Session(std::vector<GroupInfo> groups)
-    : groups_(std::move(groups)), history_(Mood{.faders = {.groups = std::vector<Fader>(groups_.size())}}) {}
+Session::Session(std::vector<GroupInfo> groups, std::vector<SceneLamp> lamps)
+    : groups_(std::move(groups)),
+      lamps_(std::move(lamps)),
+      history_(Mood{.faders = {.groups = std::vector<Fader>(groups_.size())}}) {}
 
 void Session::change(Mood mood, const std::string& gesture) {
   stop_fade();
@@ -128,11 +150,11 @@ bool Session::perform(const Action& action) {
   if (word == "keep") return keep(slot_in(action)), true;
   if (word == "recall") return recall(slot_in(action), seconds_in(action, 1)), true;
   if (word == "preset") {
-    fade_to(to_mood(groups_, read_preset(arguments.at(0)), mood()), seconds_in(action, 1));
+    fade_to(to_mood(groups_, read_preset(arguments.at(0)), mood(), lamps_), seconds_in(action, 1));
     return true;
   }
   if (word == "save") {
-    write_file(arguments.at(0), print_preset(to_preset(groups_, mood(), "")));
+    write_file(arguments.at(0), print_preset(to_preset(groups_, mood(), "", lamps_)));
     return true;
   }
   if (word == "set") {

@@ -17,7 +17,8 @@ namespace sconce {
 
 /// A lamp out of its layer.
 struct MovedLamp {
-  Vec3 at{0};          ///< where its middle went
+  Vec3 at{0};                    ///< where its middle went
+  std::optional<Vec3> target{};  ///< that it points to; none: as it did
   std::string kind{};  ///< that it has become, in the words of `sconce relight --light`, without a place; ""
                        ///< = its own
 
@@ -26,7 +27,7 @@ struct MovedLamp {
 /// By their number in Lamps::all().
 using MovedPlaces = std::map<std::size_t, MovedLamp>;
 
-/// What a preset keeps, but for the camera; and where lamps went.
+/// What a preset keeps, but for the camera.
 struct Mood {
   Faders faders;
   bool automatic = false;  ///< exposure follows the mix; else ev100 holds
@@ -38,16 +39,29 @@ struct Mood {
   bool operator==(const Mood&) const = default;
 };
 
-/// @param name of the camera, kept as it is
-Preset to_preset(std::span<const GroupInfo> groups, const Mood& mood, const std::string& camera);
-/// `current` with what the preset says. @throws UsageError
-Mood to_mood(std::span<const GroupInfo> groups, const Preset& preset, const Mood& current);
+/// A lamp that a preset can name.
+struct SceneLamp {
+  std::string name;  ///< lamp_names()
+  std::optional<Vec3> place{};
+};
+
+/// @param camera  its name
+/// @param lamps   by their number in Lamps::all()
+Preset to_preset(std::span<const GroupInfo> groups, const Mood& mood, const std::string& camera,
+                 std::span<const SceneLamp> lamps = {});
+/// `current` with what the preset says. One that names lamps sends all others home.
+/// @param lamps  none: they stay where they are, whatever the preset says
+/// @throws UsageError
+Mood to_mood(std::span<const GroupInfo> groups, const Preset& preset, const Mood& current,
+             std::span<const SceneLamp> lamps = {});
 
 class Session {
  public:
-  explicit Session(std::vector<GroupInfo> groups);
+  /// @param lamps  that move; none where none does
+  explicit Session(std::vector<GroupInfo> groups, std::vector<SceneLamp> lamps = {});
 
   const std::vector<GroupInfo>& groups() const { return groups_; }
+  const std::vector<SceneLamp>& lamps() const { return lamps_; }
   const Mood& mood() const { return history_.now(); }
   /// @param gesture  changes in a row of the same name are one step of undo
   void change(Mood mood, const std::string& gesture = {});
@@ -90,6 +104,7 @@ class Session {
   std::optional<Mood>& slot_of(char slot) { return slot == 'a' ? a_ : b_; }
 
   std::vector<GroupInfo> groups_;
+  std::vector<SceneLamp> lamps_;
   History<Mood> history_;
   std::optional<Mood> a_, b_;
   std::optional<MixSpec> from_;  ///< of a cross-fade

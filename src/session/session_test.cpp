@@ -51,6 +51,23 @@ TEST(Faders, PresetsGiveTheSameMixAsTheCommandLine) {
   EXPECT_THROW(to_faders(groups, {.assignments = {"celing=1"}}), UsageError);
 }
 
+// A preset keeps where lamps are, where they point and what they became; one that names none leaves them.
+TEST(Session, PresetsKeepLamps) {
+  const std::vector<GroupInfo> groups = lamps({"a"});
+  const std::vector<SceneLamp> bulbs{{"bulb#1", Vec3(1, 2, 3)}, {"", {}}, {"bulb#2", Vec3(4, 5, 6)}};
+  Mood mood{.faders = {.groups = std::vector<Fader>(1)}};
+  mood.moved[2] = {Vec3(7, 8, 9), Vec3(0, 0, 1), "spot"};
+  const Preset preset = to_preset(groups, mood, "", bulbs);
+  Mood other = mood;
+  other.moved = {{0, {Vec3(9), {}, ""}}};
+  EXPECT_EQ(to_mood(groups, preset, other, bulbs).moved, mood.moved) << "others go home";
+  EXPECT_EQ(to_mood(groups, {}, other, bulbs).moved, other.moved);
+  EXPECT_EQ(to_mood(groups, preset, other).moved, other.moved) << "nothing moves here";
+  EXPECT_EQ(to_mood(groups, {.lamps = {{"bulb#1", {}, {}, "point"}}}, mood, bulbs).moved,
+            (MovedPlaces{{0, {Vec3(1, 2, 3), {}, "point"}}}));
+  EXPECT_THROW(to_mood(groups, {.lamps = {{"bulb"}}}, mood, bulbs), UsageError);
+}
+
 TEST(Session, OneDragIsOneStepOfUndo) {
   Session session(lamps({"a"}));
   for (double gain : {0.9, 0.8, 0.7}) {
