@@ -174,6 +174,10 @@ void Viewer::fader_row(std::size_t g) {
   tip("mute: hides this group, presets do not");
   color_popup(g);
 
+  const auto closer = [&] {
+    if (compact) ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + px(1));
+  };
+  closer();
   const FaderMove move = fader_track("track", fader.gain, color, fader.on);
   state_.fader_places[group.name] = move.place;
   if (move.moved)
@@ -183,6 +187,7 @@ void Viewer::fader_row(std::size_t g) {
   if (move.released) session.end_gesture();
 
   if (!compact) small_words(words);
+  closer();
   ImGui::Dummy({0, px(1)});
   ImGui::PopID();
 }
