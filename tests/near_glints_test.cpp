@@ -70,11 +70,14 @@ class NearGlints : public testing::Test {
     return scene;
   }
 
-  /// Per pixel: what it shows of a lamp, diffuse and mirrored.
-  std::pair<Image, Image> by_rays(std::size_t number) const {
+  /// Per pixel: what it shows of a lamp.
+  struct Shown {
+    Image diffuse, mirrored, as_if_matt;
+  };
+  Shown by_rays(std::size_t number) const {
     const auto& lamp = std::get<NearFieldLamp>(lamps_.all()[number].shape);
     const Lens lens(camera_, params_);
-    std::pair out{Image::rgb(kSize, kSize), Image::rgb(kSize, kSize)};
+    Shown out{Image::rgb(kSize, kSize), Image::rgb(kSize, kSize), Image::rgb(kSize, kSize)};
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const Vec3 direction = lens.direction(Vec2(x, y) + Vec2(0.5f));
@@ -89,8 +92,9 @@ class NearGlints : public testing::Test {
           e += share * static_cast<float>(near_spots(lamp, at, nullptr, c));
           if (mirrors(surface)) glints += share * near_glints(lamp, surface, -direction, at, c);
         }
-        out.first.set_rgb(x, y, surface.receiver_albedo() * kInvPi * lamp.scale * e);
-        out.second.set_rgb(x, y, lamp.scale * glints);
+        out.diffuse.set_rgb(x, y, surface.receiver_albedo() * kInvPi * lamp.scale * e);
+        out.mirrored.set_rgb(x, y, lamp.scale * glints);
+        out.as_if_matt.set_rgb(x, y, surface.base_color * kInvPi * lamp.scale * e);
       }
     return out;
   }
@@ -127,7 +131,7 @@ class NearGlints : public testing::Test {
 
 TEST_F(NearGlints, AllTermsAsByRays) {
   for (const std::size_t lamp : {0, 1}) {
-    const auto [matt, glints] = by_rays(lamp);
+    const auto [matt, glints, plainly] = by_rays(lamp);
     const double all = mean(matt) + mean(glints);
     ASSERT_GT(mean(glints), 0.1 * all);
     const Image device = by_opengl(lamp, {.shadow_side = 0, .glints = true}),
@@ -139,7 +143,7 @@ TEST_F(NearGlints, AllTermsAsByRays) {
       };
       const auto m = static_cast<double>(matt.data[i]), g = static_cast<double>(glints.data[i]);
       alike += near(static_cast<double>(device.data[i]), m + g);
-      without += near(static_cast<double>(plain.data[i]), m);
+      without += near(static_cast<double>(plain.data[i]), static_cast<double>(plainly.data[i]));
     }
     EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(device.data.size())) << lamp;
     EXPECT_GE(static_cast<double>(without), 0.995 * static_cast<double>(device.data.size())) << lamp;
@@ -149,7 +153,7 @@ TEST_F(NearGlints, AllTermsAsByRays) {
 // Glints have the shadow that diffuse light has: where all terms are lit, and where none is.
 TEST_F(NearGlints, HaveTheirShadows) {
   const auto& lamp = std::get<NearFieldLamp>(lamps_.all()[0].shape);
-  const auto [matt, glints] = by_rays(0);
+  const auto [matt, glints, plainly] = by_rays(0);
   const double all = mean(matt) + mean(glints);
   const Image device = by_opengl(0, {.shadow_side = kSide, .glints = true});
   const Lens lens(camera_, params_);
@@ -175,7 +179,7 @@ TEST_F(NearGlints, HaveTheirShadows) {
 
 // The picture's own rays pick a term at random, of a coarser light field where that is far away.
 TEST_F(NearGlints, AreTheMeanOfThePicturesRays) {
-  const auto [matt, glints] = by_rays(0);
+  const auto [matt, glints, plainly] = by_rays(0);
   const auto& lamp = std::get<NearFieldLamp>(lamps_.all()[0].shape);
   const Lens lens(camera_, params_);
   double sum = 0, want = 0;
@@ -211,7 +215,7 @@ TEST_F(NearGlints, FollowTheMix) {
   };
   const Image grey = drawn({Rgb(2), Rgb(0)}), colored = drawn({Rgb(0), Rgb(1)}),
               both = drawn({Rgb(2), Rgb(1)});
-  const auto [matt, glints] = by_rays(0);
+  const auto [matt, glints, plainly] = by_rays(0);
   EXPECT_NEAR(mean(grey) / mean(glints), 2, 0.01);
   for (std::size_t i = 0; i < both.data.size(); ++i)
     ASSERT_NEAR(both.data[i], grey.data[i] + colored.data[i],
