@@ -150,9 +150,14 @@ void Viewer::overlays() {
   for (std::size_t i = 0; i < state_.goals.size(); ++i) {
     const auto spot = on_screen(from, state_.goals[i].position);
     if (!spot) continue;
+    const std::string label = fmt::format("{}  {:.0f} lux", i + 1, state_.goals[i].target);
+    const ImVec2 at_label(spot->x + px(15), spot->y - px(8));
+    draw.AddRectFilled({at_label.x - px(4), at_label.y - px(2)},
+                       {at_label.x + width_of(fonts().small, label) + px(4), at_label.y + px(16)},
+                       IM_COL32(18, 19, 21, 215), px(4));
+    draw.AddCircle(*spot, px(9), IM_COL32(0, 0, 0, 160), 24, px(4));
     draw.AddCircle(*spot, px(9), palette::kAccent, 24, px(2));
-    text(draw, fonts().small, {spot->x + px(13), spot->y - px(8)}, palette::kAccent,
-         fmt::format("{}  {:.0f} lux", i + 1, state_.goals[i].target));
+    text(draw, fonts().small, at_label, palette::kAccent, label);
   }
 
   legend(draw);
