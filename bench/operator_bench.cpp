@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What it takes to open an operator of the default size: read into memory, as open_operator() does, beside
-// mapped (ADR 43).
+// mapped (ADR 44).
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <sys/mman.h>

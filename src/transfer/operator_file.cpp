@@ -128,7 +128,7 @@ bool finite(std::span<const T> values) {
   return true;
 }
 
-/// A file as it was when it was read: a copy that stays whatever becomes of it (ADR 43).
+/// A file as it was when it was read: a copy that stays whatever becomes of it (ADR 44).
 class AlignedBytes {
  public:
   /// @throws Error
