@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example of global illumination with things that move.
+// Things that move: the example's viewer, and objects of packages put elsewhere.
 #include <gtest/gtest.h>
 
 #include "core/files.h"
 #include "image/io.h"
 #include "process.h"
+#include "relit_room.h"
 
 namespace sconce {
 namespace {
@@ -48,6 +49,58 @@ TEST(MovingObjects, PicturesSayWhenBouncesAreOld) {
   const test::Outcome unknown = test::run_program(MOVING, {scene, "piano", out});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_NE(unknown.err.find("piano"), std::string::npos) << unknown.err;
+}
+
+/// A floor and a ceiling lamp's room with its block at two places, baked for each.
+class PutElsewhere : public testing::Test {
+ protected:
+  static constexpr float kX = -0.9f, kZ = 0.2f;  // metres that the block goes
+  TemporaryFolder folder;
+  std::string file(const std::string& name) const { return (folder / name).string(); }
+
+  static Scene moved_room() {
+    Scene scene = test::two_lamp_room();
+    for (Instance& instance : scene.instances)
+      if (instance.name == "block") instance.transform[3] += glm::vec4(kX, 0, kZ, 0);
+    return scene;
+  }
+  void bake(const std::string& name, const Scene& scene) {
+    write_file(folder / (name + ".glb"), write_glb(scene, "test"));
+    const test::Outcome made =
+        test::run_sconce({"bake", file(name + ".glb"), "--density", "24", "--samples", "256", "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  test::Outcome picture(std::vector<std::string> words, const std::string& output) const {
+    for (const char* word : {"--size", "160x120", "--device", "cpu", "-o"}) words.emplace_back(word);
+    words.push_back(file(output));
+    return test::run_sconce(words);
+  }
+};
+
+// The picture is that of the scene baked anew with the block there; the floor that it left is lit, too.
+TEST_F(PutElsewhere, PicturesAreThoseOfTheSceneBakedThere) {
+  bake("here", test::two_lamp_room());
+  bake("there", moved_room());
+  const std::string middle = std::to_string(0.35f + kX) + ",0.4," + std::to_string(-0.35f + kZ);
+  for (const std::string mix : {"right=on", "left=0.5"}) {
+    for (const auto& [words, output] :
+         {std::pair{std::vector<std::string>{"render", file("there.sconce")}, "truth.exr"},
+          {{"render", file("here.sconce")}, "before.exr"},
+          {{"relight", file("here.sconce"), "--object", "block=" + middle}, "moved.exr"}}) {
+      std::vector<std::string> all = words;
+      all.push_back(mix);
+      const test::Outcome done = picture(all, output);
+      ASSERT_EQ(done.code, 0) << done.err;
+    }
+    const Image truth = read_image(file("truth.exr"));
+    EXPECT_LE(test::error_of(truth, read_image(file("moved.exr"))), 0.04) << mix;
+    EXPECT_GT(test::error_of(truth, read_image(file("before.exr"))), 0.2) << mix;
+  }
+  const test::Outcome unknown =
+      picture({"relight", file("here.sconce"), "--object", "blok=0,0,0"}, "none.exr");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'block'"), std::string::npos) << unknown.err;
+  EXPECT_EQ(picture({"relight", file("here.sconce"), "--object", "block"}, "none.exr").code, 2);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "bake_job.h"
 #include "core/error.h"
+#include "transfer_job.h"
 
 namespace fs = std::filesystem;
 
@@ -41,6 +42,13 @@ void live_bake(const fs::path& scene, const Progress& progress,
     write_result(bake, states, package, {}, progress);
     publish(package);
   }
+  // Then its lamps may be moved.
+  TransferJob job;
+  job.package = fs::path(folder) / fmt::format("{}-{}.sconce", scene.stem().string(), kStages[2].page);
+  job.params.gather = 16384, job.params.rays = 256, job.params.coefficients = 512;
+  RankSession alone;
+  run_transfer_job(job, alone, progress);
+  publish(job.package);
 }
 
 }  // namespace sconce::app

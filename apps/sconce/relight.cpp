@@ -13,6 +13,7 @@
 #include "relight/package_operator.h"
 #include "relight/texel_light.h"
 #include "relight_lamps.h"
+#include "relight_objects.h"
 #include "relight_stage.h"
 #include "tone/apply.h"
 
@@ -59,6 +60,7 @@ int run_relight(int argc, const char* const* argv) {
   const auto start = Clock::now();
   std::string input, output;
   LampWords words;
+  std::vector<std::string> objects;
   bool pixels = false;
   double cull = 0;
   MixOptions settings;
@@ -70,10 +72,15 @@ int run_relight(int argc, const char* const* argv) {
       "A picture of a package with lamps that are in none of its layers: their direct light as it is, "
       "their indirect light by the operator of 'sconce transfer', beside the baked groups.",
       {"sconce relight kitchen.sconce --light point,position=1,1.8,1,lumens=400 -o lamp.png",
-       "sconce relight kitchen.sconce --move pendant=1,1.9,1 --others off", "sconce view {PACKAGE}"});
+       "sconce relight kitchen.sconce --move pendant=1,1.9,1 --object chair=1.2,0.45,0.3",
+       "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   words.declare(options);
+  options.option(
+      "--object", &objects,
+      "NAME=X,Y,Z: the middle of an object (a node of the scene) goes there, its shadows and bounces "
+      "follow; needs no operator in the package; may be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option(
@@ -100,6 +107,7 @@ int run_relight(int argc, const char* const* argv) {
   device.check();
   if (!(cull >= 0 && cull <= 1)) throw UsageError("option '--cull'", fmt::format("{}", cull), "0 to 1");
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
+  if (pixels && !objects.empty()) throw UsageError({}, "--object needs the lightmap, not --pixels");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");
   if (output.empty()) output = default_output(input, ".relit.png");
   check_output(output, {".png", ".exr"});
@@ -113,10 +121,16 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    const WantedLamps wanted = words.parse(preset, progress);
+    std::vector<std::pair<std::string, Vec3>> places;
+    for (const std::string& text : objects) places.push_back(parse_object(text));
+    const WantedLamps wanted = words.parse(preset, progress, places.empty());
     const Package package = settings.open(input);
-    const Operator op = find_operator(package, pixels ? picture.camera : "");
-    const View view(package);
+    const View home(package);
+    const auto elsewhere =
+        places.empty() ? nullptr : std::make_unique<ObjectsElsewhere>(package, home, places, progress);
+    const View& view = elsewhere ? elsewhere->view() : home;
+    const Operator op =
+        elsewhere ? elsewhere->transfer() : find_operator(package, pixels ? picture.camera : "");
     relit.groups = package.manifest().groups;
     relit.mix = settings.make(preset, relit.groups, progress);
     MixSpec lightmap = relit.mix;
@@ -132,7 +146,10 @@ int run_relight(int argc, const char* const* argv) {
     const MovedLamps lamps = lamps_at(lit.more, lit.shining, lit.moves);
     RelightJob job{package, view, op, lamps, lit.shaders, nullptr, static_cast<float>(cull)};
     std::vector<Image> pages = mix_pages(package, lightmap), components;
-    if (view.sees_normal_maps()) components = mix_components(package, lightmap);
+    if (elsewhere)
+      elsewhere->add_to(pages, lightmap);
+    else if (view.sees_normal_maps())
+      components = mix_components(package, lightmap);
     if (const std::vector<MovedGroup> parts = in_part(lit.left); !parts.empty()) {
       job.bounces = std::make_shared<FoldedBounces>(op);
       take_share(package_atlas(package, view), op,

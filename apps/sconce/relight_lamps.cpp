@@ -103,7 +103,7 @@ void LampWords::declare(Options& options) {
                  "several times");
 }
 
-WantedLamps LampWords::parse(const Preset& preset, const Progress& progress) const {
+WantedLamps LampWords::parse(const Preset& preset, const Progress& progress, bool some) const {
   constexpr std::string_view kGroup = "group,name=";
   WantedLamps wanted;
   for (const std::string& text : lights) {
@@ -129,8 +129,9 @@ WantedLamps LampWords::parse(const Preset& preset, const Progress& progress) con
     const LampChange to = parse_kind_option(text);
     change_of(to.name).kind = to.kind;
   }
-  if (wanted.more.lights.empty() && wanted.groups.empty() && wanted.changes.empty() && wanted.shaders.empty())
-    throw UsageError({}, "no lamp to move: --light, --lights, --move or --kind",
+  if (some && wanted.more.lights.empty() && wanted.groups.empty() && wanted.changes.empty() &&
+      wanted.shaders.empty())
+    throw UsageError({}, "nothing to move: --light, --lights, --move, --kind or --object",
                      "--light spot,position=X,Y,Z,lumens=N; --move LAMP=X,Y,Z");
   return wanted;
 }

@@ -33,8 +33,9 @@ struct LampWords {
 
   void declare(Options& options);
   /// @param preset  whose lamps the words change further
+  /// @param some    none at all is an error
   /// @throws UsageError; Error for files
-  WantedLamps parse(const Preset& preset, const Progress& progress) const;
+  WantedLamps parse(const Preset& preset, const Progress& progress, bool some) const;
 };
 
 /// The same in the package's terms.

@@ -29,19 +29,19 @@ void Viewer::follow_mirrors() {
   }
   if (auto picture = mirroring_.take(); picture && canvas.version() == mirrored_)
     canvas.set_at_rest(std::move(*picture), *state_.session);
-  if (canvas.version() == mirrored_ || drawing_more_ || state_.lamps.grip != Grip::none) return;
+  if (canvas.version() == mirrored_ || drawing_more_ || state_.dragging()) return;
   mirrored_ = canvas.version();
   PictureParams params{.width = static_cast<int>(state_.canvas_size.x),
                        .height = static_cast<int>(state_.canvas_size.y),
                        .samples = 1,
                        .reflections = kReflections};
-  mirroring_.start([opened = state_.opened, camera = state_.camera, mix = canvas.mix(),
-                    pages = canvas.mixed_pages(state_.lamps.mover.get()),
+  mirroring_.start([opened = state_.opened, mover = state_.objects.mover, &view = rays(),
+                    camera = state_.camera, mix = canvas.mix(), pages = canvas.mixed_pages(state_.movers()),
                     params](const Progress& progress, const auto& publish) mutable {
     Image sum = Image::rgb(params.width, params.height);
     for (int pass = 1; pass <= kPasses; ++pass) {
       params.seed = static_cast<uint32_t>(pass);
-      const Image one = opened->rays.render(camera, mix, pages, params, progress);
+      const Image one = view.render(camera, mix, pages, params, progress);
       Image mean = sum;
       for (std::size_t i = 0; i < sum.data.size(); ++i) {
         sum.data[i] += one.data[i];

@@ -26,8 +26,7 @@ void Viewer::ball_overlay(ImDrawList& draw, const Lens& from) const {
   const Vec3 eye(frame[3]), ahead = middle - eye;
   const float depth = -glm::dot(ahead, Vec3(frame[2])), way = glm::length(ahead);
   const auto spot = on_screen(from, middle);
-  if (!spot || depth < radius || state_.opened->rays.tracer().occluded({eye, ahead / way, way - radius}))
-    return;
+  if (!spot || depth < radius || rays().tracer().occluded({eye, ahead / way, way - radius})) return;
   const MixSpec mix = state_.session->mix();
   const ProbeValue light = state_.opened->probes->mixed(middle, mix.weights);
   const Exposure exposure = state_.session->exposure(state_.canvas->metering());

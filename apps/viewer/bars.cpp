@@ -36,7 +36,8 @@ constexpr Key kKeys[] = {{"Left drag", "turn around what is under the pointer"},
                          {"F", "all in sight"},
                          {"Ctrl-click", "wish for lux at a surface"},
                          {"Click a lamp's ring", "handles to drag it by, with sconce bake --movable"},
-                         {"H, L", "the lamp goes home; rings of lamps"},
+                         {"O or double click", "handles of the object under the pointer"},
+                         {"H, L", "the lamp or object goes home; rings of lamps"},
                          {"T", "the lamp points to what is under the pointer"},
                          {"Double click on a fader", "as baked; Shift: fine; Ctrl-wheel: a tenth of a stop"},
                          {"Ctrl Z, Ctrl Y", "undo, redo"},
@@ -115,6 +116,8 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     line = "measuring";
   else if (preparing_.running())
     line = "preparing lamps to be moved";
+  else if (const std::string words = behind(); !words.empty())
+    line = words;
   else if (state_.sheet)
     line =
         fmt::format("{} groups  {} x {}  {}", state_.session->groups().size(), state_.sheet->opened().width(),
@@ -189,7 +192,8 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
     ImGui::ProgressBar(baking_.running() ? static_cast<float>(baking_.done()) : 0.5f, {width, px(6)}, "");
     ImGui::TextDisabled("%s", stage.c_str());
   } else {
-    ImGui::TextDisabled("NAME.sconce; glTF or OBJ, baked while you look; OpenEXR with light groups.");
+    ImGui::TextDisabled(
+        "NAME.sconce; glTF, OBJ, 3DS and others, baked while you look; OpenEXR with light groups.");
     ImGui::Dummy({0, px(12)});
     const fs::path ours = installed_file("scenes/bathroom.glb");
     if (fs::exists(ours) && request_.bake && ImGui::Button("Our bathroom", {px(150), px(34)}))

@@ -54,15 +54,15 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
     atlas_ = std::make_unique<gpu::AtlasMix>(context, for_tier(opened_->layers, tier), tier);
 }
 
-void Canvas::update_mix(const MixSpec& mix, const LampMover* mover, bool metered) {
-  const uint64_t relit = mover != nullptr ? mover->version() : 0;
+void Canvas::update_mix(const MixSpec& mix, const Movers& movers, bool metered) {
+  const uint64_t relit = movers.version();
   if (mixed_ && mix.weights == mix_.weights && relit == relit_ && (metered_ || !metered)) return;
   const Stopwatch watch;
-  const bool moved = mover != nullptr && mover->any();
+  const bool moved = movers.any();
   on_device_ = atlas_ != nullptr && !moved;
   if (!on_device_ || metered) {
     std::vector<Image> relit_pages;
-    if (moved) relit_pages = mover->pages(mixer_, mix);
+    if (moved) relit_pages = movers.pages(mixer_, mix);
     const std::vector<Image>& pages = moved ? relit_pages : mixer_.mix(mix);
     if (metered) metering_ = opened_->meter(mix, pages);
     fader_ms_ = watch.milliseconds();
@@ -88,9 +88,9 @@ const gpu::LightSource& Canvas::light(LookKind look) {
   return *pages_;
 }
 
-bool Canvas::draw(const Session& session, const Scenery& scenery, const LampMover* mover) {
+bool Canvas::draw(const Session& session, const Scenery& scenery, const Movers& movers) {
   const bool metered = session.mood().automatic || find_tone_mapper(session.mood().tone).needs_maximum;
-  update_mix(session.mix(), mover, metered);
+  update_mix(session.mix(), movers, metered);
   const Stopwatch watch;
   if (!same(scenery, drawn_)) samples_ = 0;
   const bool redisplay =
@@ -135,8 +135,13 @@ void Canvas::set_at_rest(Image linear, const Session& session) {
   display(session, drawn_);
 }
 
-std::vector<Image> Canvas::mixed_pages(const LampMover* mover) {
-  return mover != nullptr && mover->any() ? mover->pages(mixer_, mix_) : mixer_.mix(mix_);
+void Canvas::follow(const sconce::View& view) {
+  view_.follow(view.shown());
+  draw_anew();
+}
+
+std::vector<Image> Canvas::mixed_pages(const Movers& movers) {
+  return movers.pages(mixer_, mix_);
 }
 
 void Canvas::set_reference(const Image& linear, const Session& session) {

@@ -10,8 +10,8 @@
 #include "gpu/mix.h"
 #include "gpu/view.h"
 #include "mix/mixer.h"
-#include "session/lamp_mover.h"
 #include "session/look.h"
+#include "session/movers.h"
 #include "viewer/screen.h"
 
 namespace sconce::viewer {
@@ -28,8 +28,10 @@ class Canvas : public Screen {
  public:
   Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened);
 
-  /// Draws what is needed. @param mover  null where lamps stay. @return whether more samples are to come
-  bool draw(const Session& session, const Scenery& scenery, const LampMover* mover);
+  /// Draws what is needed. @return whether more samples are to come
+  bool draw(const Session& session, const Scenery& scenery, const Movers& movers);
+  /// Objects stand elsewhere. @param view  must outlive it from now on
+  void follow(const sconce::View& view);
   /// Beside the picture, of the same size: codes of another one, for the right half of `reference`.
   void set_reference(const Image& linear, const Session& session);
   bool has_reference() const { return reference_sum_ != nullptr; }
@@ -40,8 +42,8 @@ class Canvas : public Screen {
   /// Counts the pictures that were begun anew.
   uint64_t version() const { return version_; }
   void draw_anew() { samples_ = 0; }
-  /// Of the mix that is drawn. @param mover  as in draw()
-  std::vector<Image> mixed_pages(const LampMover* mover);
+  /// Of the mix that is drawn. @param movers  as in draw()
+  std::vector<Image> mixed_pages(const Movers& movers);
 
   ImTextureID reference() const { return id_of(reference_display_.texture()); }
   Image linear() const override { return at_rest_ ? at_rest_linear_ : view_.linear(); }
@@ -49,7 +51,7 @@ class Canvas : public Screen {
   static constexpr int kSamples = 16;
 
  private:
-  void update_mix(const MixSpec& mix, const LampMover* mover, bool metered);
+  void update_mix(const MixSpec& mix, const Movers& movers, bool metered);
   const gpu::LightSource& light(LookKind look);
   void display(const Session& session, const Scenery& scenery);
 
@@ -66,7 +68,7 @@ class Canvas : public Screen {
   Image at_rest_linear_;
 
   bool on_device_ = false;
-  uint64_t relit_ = 0;  ///< LampMover::version()
+  uint64_t relit_ = 0;  ///< Movers::version()
   Scenery drawn_;
   Mood shown_;
   int samples_ = 0;

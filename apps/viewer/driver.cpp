@@ -49,7 +49,7 @@ bool Driver::step() {
   if (settling_) {
     const bool moving = v.drawing_more_ || v.opening_.running() || v.baking_.running() ||
                         v.measuring_.running() || v.preparing_.running() || v.refining_.running() ||
-                        v.mirroring_.running() || v.turning_ || v.filming_.running() ||
+                        v.mirroring_.running() || v.turning_ || v.filming_.running() || v.objects_moving() ||
                         (v.state_.lamps.mover && v.state_.lamps.mover->rough());
     if (moving) return true;
     settling_ = false;
@@ -79,6 +79,45 @@ void Driver::drag(float x0, float y0, float x1, float y1) {
   path_at_ = 0;
 }
 
+bool Driver::tug(const Action& action) {
+  Viewer& v = *viewer_;
+  State& s = v.state_;
+  const auto& [word, arguments, where] = action;
+  const auto named = std::find(kGripNames.begin(), kGripNames.end(), arguments[0]);
+  if (named == kGripNames.end())
+    throw UsageError(where, "unknown handle '" + arguments[0] + "'", "x, y, z, floor");
+  std::optional<Vec3> place;
+  if (!s.objects.chosen.empty())
+    place = v.object_place();
+  else if (s.lamps.chosen && s.lamps.mover)
+    place = s.lamps.mover->place(*s.lamps.chosen, s.session->mood().moved);
+  else
+    throw Error(where, "nothing is chosen", "grab LAMP, pick OBJECT");
+  const auto tip = place ? v.handle_at(*place, kGrips[static_cast<std::size_t>(named - kGripNames.begin())])
+                         : std::nullopt;
+  if (!tip) throw Error(where, "that handle is not in sight");
+  const auto by = numbers(action, 1, 2);
+  return drag(tip->x, tip->y, tip->x + by[0], tip->y + by[1]), true;
+}
+
+bool Driver::object(const Action& action) {
+  Viewer& v = *viewer_;
+  const auto& [word, arguments, where] = action;
+  if (word == "objects") {
+    if (v.objects_pending()) return --at_, frames_ = 1, true;
+    std::string lines;
+    if (const ObjectMover* mover = v.state_.objects.mover.get())
+      for (const std::string& line : object_options(*mover)) lines += line + "\n";
+    return write_file(arguments[0], lines), true;
+  }
+  v.choose_object(arguments[0], where);
+  if (word == "object") {
+    const auto to = numbers(action, 1, 3);
+    v.move_object({to[0], to[1], to[2]}, false);
+  }
+  return frames_ = 1, true;
+}
+
 bool Driver::lamp(const Action& action) {
   Viewer& v = *viewer_;
   State& s = v.state_;
@@ -96,21 +135,8 @@ bool Driver::lamp(const Action& action) {
     if (!mover.problem().empty()) lines += "# " + mover.problem() + "\n";
     return write_file(arguments[0], lines), true;
   }
-  if (word == "home") return v.put_lamp_back(), frames_ = 1, true;
-  if (word == "tug") {
-    const auto named = std::find(kGripNames.begin(), kGripNames.end(), arguments[0]);
-    if (named == kGripNames.end())
-      throw UsageError(where, "unknown handle '" + arguments[0] + "'", "x, y, z, floor");
-    if (!s.lamps.chosen) throw Error(where, "no lamp is chosen", "grab LAMP");
-    const auto place = mover.place(*s.lamps.chosen, s.session->mood().moved);
-    const auto tip = place ? v.handle_at(*place, kGrips[static_cast<std::size_t>(named - kGripNames.begin())])
-                           : std::nullopt;
-    if (!tip) throw Error(where, "that handle is not in sight");
-    const auto by = numbers(action, 1, 2);
-    return drag(tip->x, tip->y, tip->x + by[0], tip->y + by[1]), true;
-  }
   const std::vector<std::size_t> found = mover.find(arguments[0], where);
-  s.lamps.chosen = found.front();
+  s.lamps.chosen = found.front(), s.objects.chosen.clear();
   if (word == "kind") {
     for (const std::size_t lamp : found) v.set_kind(lamp, arguments[1] == "own" ? "" : arguments[1]);
     if (const std::string& problem = s.lamps.mover->problem(); !problem.empty()) throw Error(where, problem);
@@ -235,8 +261,10 @@ bool Driver::perform(const Action& action) {
     return v.add_goal(position, normal, static_cast<double>(numbers(action, 1, 1)[0]), meter.light().values),
            true;
   }
-  if (word == "lamp" || word == "kind" || word == "aim" || word == "grab" || word == "tug" ||
-      word == "home" || word == "moves")
+  if (word == "tug") return tug(action);
+  if (word == "home") return v.put_back(), frames_ = 1, true;
+  if (word == "object" || word == "pick" || word == "objects") return object(action);
+  if (word == "lamp" || word == "kind" || word == "aim" || word == "grab" || word == "moves")
     return lamp(action);
   if (word == "seek") return v.seek(), frames_ = 1, true;
   if (word == "scene") return v.save_scene(arguments[0]), true;

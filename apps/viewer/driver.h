@@ -17,6 +17,8 @@ class Driver {
  private:
   bool perform(const Action& action);
   bool lamp(const Action& action);
+  bool object(const Action& action);
+  bool tug(const Action& action);
   /// The mouse from a to b in a few frames, with the left button down.
   void drag(float x0, float y0, float x1, float y1);
 

@@ -9,7 +9,8 @@ void Viewer::keys() {
   if (io.WantTextInput) return;
   const auto pressed = [](const char* name) { return ImGui::IsKeyPressed(key_of(name), false); };
   if (pressed("f1")) state_.help = !state_.help;
-  if (pressed("escape")) state_.help = false, state_.lamps.chosen.reset(), stop_turn();
+  if (pressed("escape"))
+    state_.help = false, state_.lamps.chosen.reset(), state_.objects.chosen.clear(), stop_turn();
   if (!state_.ready()) return;
   Session& session = *state_.session;
   if (io.KeyCtrl) {
@@ -20,7 +21,7 @@ void Viewer::keys() {
   }
   if (pressed("tab")) state_.panels = !state_.panels;
   if (pressed("l")) state_.lamps.shown = !state_.lamps.shown;
-  if (pressed("h")) put_lamp_back();
+  if (pressed("h")) put_back();
   if (pressed("t") && state_.lamps.chosen && state_.under && state_.under->surface)
     attempt([&] { aim_lamp(*state_.lamps.chosen, state_.under->position); });
   if (pressed("i")) state_.reading = !state_.reading;
@@ -32,7 +33,8 @@ void Viewer::keys() {
     if (pressed("f")) state_.place = {};
     return;
   }
-  if (pressed("f")) state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
+  if (pressed("o") && state_.under && !state_.under->object.empty()) choose_object(state_.under->object);
+  if (pressed("f")) state_.camera = frame_all(state_.camera, rays().world().bounds);
   const std::vector<Camera>& cameras = state_.opened->rays.scene().cameras;
   if (pressed("c") && !cameras.empty()) {
     std::size_t next = 0;

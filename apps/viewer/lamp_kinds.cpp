@@ -30,7 +30,7 @@ std::string file_of(const std::string& kind) {
 std::vector<Rgb> light_of(const gpu::Context& context, const gpu::Geometry& geometry, const Movable& movable,
                           const gpu::LampShader& lamp) {
   const Operator& op = movable.op;
-  gpu::DirectLight direct(context, geometry, movable.opened->rays.world().bounds, {lamp});
+  gpu::DirectLight direct(context, geometry, movable.view.world().bounds, {lamp});
   const auto lit = [&](std::span<const OperatorPoint> points, uint32_t slots, uint32_t each) {
     const gpu::Buffer places(context, points, "points of the lightmap");
     const gpu::Buffer light(context, slots * sizeof(Rgbx), nullptr, "light of a lamp");
@@ -44,7 +44,7 @@ std::vector<Rgb> light_of(const gpu::Context& context, const gpu::Geometry& geom
   const std::vector<Rgbx> seen = lit(texels, static_cast<uint32_t>(texels.size()), 1);
   std::vector<Rgbx> cloud = lit(op.lit, op.slots(), op.points_per_slot);
   std::vector<Rgb> light(seen.size());
-  movable.bounces.indirect(cloud, light);
+  movable.bounces->indirect(cloud, light);
   for (std::size_t i = 0; i < light.size(); ++i) light[i] += Rgb(seen[i][0], seen[i][1], seen[i][2]);
   return light;
 }

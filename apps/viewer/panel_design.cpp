@@ -54,7 +54,7 @@ void Viewer::baked_section() {
     }
   }
   ImGui::EndTable();
-  if (state_.lamps_away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
+  if (state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();
 }
@@ -94,7 +94,7 @@ void Viewer::plane_section() {
         "%s", fmt::format("{} x {} points, {} paths each{}", plane.measured.grid.columns,
                           plane.measured.grid.rows, light.samples, measuring_.running() ? ", measuring" : "")
                   .c_str());
-    if (state_.lamps_away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
+    if (state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
     ImGui::PopFont();
   }
   ImGui::Dummy({0, px(6)});
@@ -102,7 +102,7 @@ void Viewer::plane_section() {
 }
 
 void Viewer::design_panel() {
-  if (!state_.sheet) baked_section(), plane_section(), lamp_section();
+  if (!state_.sheet) baked_section(), plane_section(), lamp_section(), object_section();
   const MixSpec mix = state_.session->mix();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::PushFont(fonts().strong);
@@ -137,7 +137,7 @@ void Viewer::design_panel() {
       break;
     }
   }
-  if (!state_.goals.empty() && state_.lamps_away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
+  if (!state_.goals.empty() && state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
   if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
   if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
   if (state_.sheet) return;

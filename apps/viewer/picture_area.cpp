@@ -40,9 +40,8 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   navigate();
   const PictureParams p = params_of(size);
   attempt([&] {
-    drawing_more_ |=
-        state_.canvas->draw(*state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()},
-                            state_.lamps.mover.get());
+    drawing_more_ |= state_.canvas->draw(
+        *state_.session, {state_.camera, p.width, p.height, state_.look, state_.scale()}, state_.movers());
     follow_mirrors();
     if (state_.look == LookKind::reference && reference_ && traced_)
       state_.canvas->set_reference(reference_->picture(*traced_, state_.canvas->mix()), *state_.session);
@@ -59,6 +58,7 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   }
   overlays();
   lamp_overlay();
+  object_overlay();
   ImGui::End();
 }
 
@@ -67,24 +67,27 @@ void Viewer::navigate() {
   const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
   const PictureParams p = params_of(state_.canvas_size);
   const Vec2 at(io.MousePos.x - state_.canvas_at.x, io.MousePos.y - state_.canvas_at.y);
-  if (hold_lamp(at)) return;
+  if (hold_lamp(at) || hold_object(at)) return;
   const Opened& opened = *state_.opened;
-  const float reach = std::max(opened.rays.world().bounds.diagonal(), 0.1f);
+  const float reach = std::max(rays().world().bounds.diagonal(), 0.1f);
   if (hovered && !active) {
-    state_.under = read_pixel(opened.rays, opened.layers, state_.session->mix(), state_.camera, p, at);
+    state_.under = read_pixel(rays(), opened.layers, state_.session->mix(), state_.camera, p, at);
   } else if (!hovered) {
     state_.under.reset();
   }
   const bool on_surface = state_.under && state_.under->surface;
   const Vec3 eye(state_.camera.frame[3]);
+  if (hovered && on_surface && !state_.under->object.empty() &&
+      ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    choose_object(state_.under->object);
   if (ImGui::IsItemActivated()) {
     const Vec3 ahead =
         Lens(state_.camera, p).direction({0.5f * state_.canvas_size.x, 0.5f * state_.canvas_size.y});
     state_.pivot = on_surface ? state_.under->position : eye + 0.3f * reach * ahead;
     if (io.KeyCtrl && on_surface && io.MouseDown[0]) {
       const Lens lens(state_.camera, p);
-      const Hit hit = opened.rays.tracer().closest({lens.eye(), lens.direction(at)});
-      const LightmapSide& side = opened.rays.side(hit.triangle, hit.back);
+      const Hit hit = rays().tracer().closest({lens.eye(), lens.direction(at)});
+      const LightmapSide& side = rays().side(hit.triangle, hit.back);
       if (hit && side.page >= 0)
         add_goal(state_.under->position, state_.under->normal, 300,
                  layers_at(opened.layers, side.page, side.at(hit.barycentric)));
@@ -173,8 +176,8 @@ void Viewer::overlays() {
          fmt::format("{:.3g} cd/m\u00b2", r.luminance));
     text(draw, fonts().small, {x + px(112), y + px(22)}, palette::kDim,
          fmt::format("albedo {:.2f}", luminance(r.albedo)));
-    text(draw, fonts().small, {x, y + px(42)}, state_.lamps_away() ? palette::kAccent : palette::kDim,
-         state_.lamps_away()  ? kAsBaked
+    text(draw, fonts().small, {x, y + px(42)}, state_.away() ? palette::kAccent : palette::kDim,
+         state_.away()        ? kAsBaked
          : r.material.empty() ? r.object
                               : r.object + " \u00b7 " + r.material);
   }

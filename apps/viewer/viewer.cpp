@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/viewer.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
-#include <ctime>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "gpu/window_target.h"
 #include "image/io.h"
-#include "package/manifest.h"
-#include "session/to_scene.h"
 #include "viewer/driver.h"
 #include "viewer/theme.h"
 
@@ -50,7 +46,7 @@ Viewer::Viewer(const ViewRequest& request)
 
 Viewer::~Viewer() {
   baking_.stop(), opening_.stop(), measuring_.stop(), tracing_.stop(), preparing_.stop(), refining_.stop(),
-      mirroring_.stop(), filming_.stop();
+      mirroring_.stop(), filming_.stop(), finding_.stop(), shading_.stop(), following_.stop();
   std::error_code ignored;
   if (!own_folder_.empty()) fs::remove_all(own_folder_, ignored);
   if (request_.forget) return;
@@ -152,11 +148,12 @@ void Viewer::take_results() {
     attempt([&] { std::visit([&](auto& what) { show(std::move(what)); }, *opened); });
   if (auto light = measuring_.take()) state_.plane.measured.light = std::move(*light);
   if (auto light = tracing_.take()) traced_ = std::move(*light);
+  if (state_.opened) attempt([&] { light_objects(); });
   if (state_.ready()) attempt([&] { light_lamps(); });
   for (const std::string& problem :
        {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem(),
         preparing_.take_problem(), refining_.take_problem(), mirroring_.take_problem(),
-        filming_.take_problem()})
+        filming_.take_problem(), finding_.take_problem(), shading_.take_problem(), following_.take_problem()})
     if (!problem.empty()) note(problem);
 }
 
@@ -177,6 +174,7 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
                      std::equal(groups.begin(), groups.end(), state_.session->groups().begin(),
                                 state_.session->groups().end(), alike);
   state_.canvas = std::move(canvas);
+  forget_objects();
   state_.sheet.reset();
   state_.opened = std::move(opened);
   state_.package = state_.opened->package.path();
@@ -200,6 +198,7 @@ void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
     note("'" + name + "' is left out: only flat, full channels are kept");
   auto sheet = std::make_unique<Sheet>(window_.context(), std::move(opened));
   state_.canvas.reset(), state_.opened.reset(), state_.under.reset(), state_.package.clear();
+  forget_objects();
   state_.sheet = std::move(sheet);
   state_.place = {};
   start_session(state_.sheet->opened().picture.groups);
@@ -231,11 +230,10 @@ void Viewer::refine_reference() {
   tracing_.stop();
   const int width = std::max(static_cast<int>(state_.canvas_size.x) / 2, 16);
   const int height = std::max(static_cast<int>(state_.canvas_size.y) / 2, 16);
-  reference_.emplace(state_.opened->rays, state_.camera,
-                     PictureParams{.width = width, .height = height, .samples = 1});
+  reference_.emplace(rays(), state_.camera, PictureParams{.width = width, .height = height, .samples = 1});
   traced_.reset();
-  tracing_.start([meter = std::make_shared<PointMeter>(reference_->meter()), opened = state_.opened](
-                     const Progress& progress, const auto& publish) {
+  tracing_.start([meter = std::make_shared<PointMeter>(reference_->meter()), opened = state_.opened,
+                  mover = state_.objects.mover](const Progress& progress, const auto& publish) {
     for (int pass = 0; pass < 128; ++pass) {
       meter->pass(8, progress);
       publish(meter->light());
@@ -279,97 +277,12 @@ void Viewer::write_figures(const fs::path& file) const {
   write_file(file, lines);
 }
 
-void Viewer::add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux) {
-  state_.goals.push_back({position, normal, target, std::move(lux)});
-}
-
-void Viewer::seek() {
-  Session& session = *state_.session;
-  if (state_.goals.empty()) return note("no goal yet: Ctrl-click a surface in the picture");
-  const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
-  Wishes wishes(unit.size());
-  for (const Goal& goal : state_.goals) wish_lux(wishes, goal.lux, unit, goal.target);
-  std::vector<double> power;
-  for (const GroupInfo& group : session.groups()) power.push_back(group.lumens);
-  const Fit found = fit(wishes, power, 1e-4);
-  Mood mood = session.mood();
-  mood.faders = with_gains(mood.faders, found.gains);
-  session.fade_to(mood, state_.fade_seconds);
-  state_.sought = fmt::format("off by {:.1f} % of the goals", 100 * found.residual);
-}
-
-void Viewer::seek_picture(const fs::path& file) {
-  Session& session = *state_.session;
-  const MixSpec mix = session.mix();
-  const bool linear = ends_with_any(file, {".exr", ".hdr"});
-  Image target = linear ? read_image(file) : Image();
-  if (!linear) {
-    const std::string bytes = read_file(file);
-    target = from_display(
-        decode_image8({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, file.string()),
-        0.18f / session.exposure(state_.screen().metering()).scale);
-  }
-  const std::vector<Rgb> unit = unit_weights(session.groups(), session.mood().faders);
-  Wishes wishes(unit.size());
-  if (state_.sheet)
-    wish_picture(wishes, state_.sheet->opened(), unit, target);
-  else
-    wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
-  const Fit found = fit(wishes);
-  Mood mood = session.mood();
-  mood.faders = with_gains(mood.faders, found.gains);
-  session.fade_to(mood, state_.fade_seconds);
-  state_.sought = fmt::format("{}: off by {:.1f} %", file.filename().string(), 100 * found.residual);
-  note("faders moved to look like " + file.filename().string());
-}
-
-void Viewer::screenshot() {
-  const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}{}", fmt::localtime(std::time(nullptr)),
-                                       ImGui::GetIO().KeyShift ? ".exr" : ".png");
-  write_picture(name);
-  note("picture written: " + fs::absolute(name).string());
-}
-
-void Viewer::write_picture(const fs::path& file) const {
-  if (lower(file.extension().string()) == ".exr")
-    write_exr(file, state_.screen().linear(), PixelType::full);
-  else
-    write_png(file, state_.screen().read());
-}
-
-void Viewer::save_preset() {
-  const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}.toml", state_.file.stem().string(),
-                                       fmt::localtime(std::time(nullptr)));
-  const fs::path path = state_.file.parent_path() / name;
-  write_file(path, print_preset(to_preset(state_.session->groups(), state_.session->mood(), "",
-                                          state_.session->lamps())));
-  note("preset written: " + path.string());
-}
-
-void Viewer::save_package(fs::path target) {
-  if (target.empty()) target = fs::path(state_.file).replace_extension(".sconce");
-  if (fs::exists(target) && !is_package(target))
-    throw Error(target.string(), "exists and is no package, so it is left alone");
-  Beside beside(target);
-  fs::copy(state_.package, beside.path(), fs::copy_options::recursive);
-  beside.commit();
-  note("package written: " + target.string());
-}
-
-void Viewer::save_scene(fs::path target) {
-  if (target.empty()) target = state_.file.parent_path() / (state_.file.stem().string() + "-relit.glb");
-  const SceneFiles written = write_scene(target, state_.opened->package, state_.session->mix());
-  for (const std::string& warning : written.warnings) note(warning);
-  note("scene written: " + target.string());
-}
-
 Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
   if (state_.sheet) return meter_picture(Mixer(state_.sheet->opened().layers).mix(mix).front());
-  const LampMover* mover = state_.lamps.mover.get();
   Mixer mixer(state_.opened->layers);
-  if (mover != nullptr && mover->any()) return state_.opened->meter(mix, mover->pages(mixer, mix));
-  return state_.opened->meter(mix, mixer.mix(mix));
+  const Movers movers = state_.movers();
+  return state_.opened->meter(mix, movers.any() ? movers.pages(mixer, mix) : mixer.mix(mix));
 }
 
 void Viewer::note(const std::string& line) {
@@ -388,7 +301,8 @@ void Viewer::attempt(const std::function<void()>& work) {
 bool Viewer::busy() const {
   return opening_.running() || baking_.running() || measuring_.running() || tracing_.running() ||
          preparing_.running() || refining_.running() || mirroring_.running() || turning_ ||
-         filming_.running() || !state_.notes.empty();
+         filming_.running() || finding_.running() || shading_.running() || following_.running() ||
+         !state_.notes.empty();
 }
 
 void show_window(const ViewRequest& request) {

@@ -12,10 +12,10 @@
 #include "session/background.h"
 #include "session/gizmo.h"
 #include "session/goals.h"
-#include "session/lamp_mover.h"
 #include "session/look.h"
 #include "session/measure.h"
 #include "session/motion.h"
+#include "session/movers.h"
 #include "session/reading.h"
 #include "session/reference.h"
 #include "session/remembered.h"
@@ -67,18 +67,36 @@ struct Goal {
   std::vector<Rgb> lux;  ///< of each group, at unit weight
 };
 
+inline constexpr float kNear = 9;  ///< pixels that a hand may be off
+
+/// Handles in a hand.
+struct Drag {
+  Grip grip = Grip::none;  ///< that is dragged
+  Vec3 start{0};           ///< where what it moves was when the drag began
+  Vec2 from{0};            ///< and the pointer
+  bool held = false;
+};
+
 /// Lamps that are moved, where the package has an operator.
 struct MovingLamps {
-  std::unique_ptr<LampMover> mover;  ///< null until it is prepared, or where there is none
+  std::shared_ptr<const Movable> home;  ///< null until it is prepared, or where there is none
+  std::unique_ptr<LampMover> mover;     ///< likewise
   std::optional<std::size_t> chosen;
-  bool shown = true, held = false;
-  Grip grip = Grip::none;                                        ///< that is dragged
-  Vec3 start{0};                                                 ///< where the lamp was when the drag began
-  Vec2 from{0};                                                  ///< and the pointer
+  bool shown = true;
+  Drag drag;
   std::string problem;                                           ///< LampMover::problem() that was told
   std::string words;                                             ///< of the kind, while they are typed
   std::map<std::string, std::filesystem::file_time_type> files;  ///< of shaders, as they were read
   double looked = 0;                                             ///< when they were looked at
+};
+
+/// Objects that are moved.
+struct MovingObjects {
+  std::shared_ptr<ObjectMover> mover;   ///< null until an object has been moved and it is prepared
+  bool sought = false, failed = false;  ///< it is being prepared, or has been; in vain
+  std::string chosen;                   ///< "" = none
+  Vec3 home{0};                         ///< middle of the chosen one
+  Drag drag;
 };
 
 /// How a picture lies in the window.
@@ -105,6 +123,7 @@ struct State {
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
   MovingLamps lamps;
+  MovingObjects objects;
   std::optional<Ball> ball;
   std::vector<Goal> goals;
   std::string sought;                                ///< what goal seeking found, in words
@@ -114,8 +133,10 @@ struct State {
   std::optional<Vec3> pivot;                   ///< while a drag turns around it
   double fade_seconds = 1;
 
-  /// Numbers that layers give know lamps where they were baked.
-  bool lamps_away() const { return lamps.mover != nullptr && lamps.mover->any(); }
+  Movers movers() const { return {lamps.mover.get(), objects.mover.get()}; }
+  /// Numbers that layers give know lamps and objects where they were baked.
+  bool away() const { return movers().any(); }
+  bool dragging() const { return lamps.drag.grip != Grip::none || objects.drag.grip != Grip::none; }
   bool ready() const { return canvas != nullptr || sheet != nullptr; }
   Screen& screen() const { return sheet ? static_cast<Screen&>(*sheet) : *canvas; }
   FalseColor& scale() { return scales[look]; }
@@ -157,7 +178,8 @@ class Viewer {
   void light_lamps();
   /// @param gesture  further moves of the same lamp are the same step of undo
   void move_lamp(std::size_t lamp, const Vec3& to, bool gesture);
-  void put_lamp_back();
+  /// The chosen lamp or object goes home.
+  void put_back();
   void aim_lamp(std::size_t lamp, const Vec3& target);
   /// @param kind  see MovedLamp; "" = its own
   void set_kind(std::size_t lamp, const std::string& kind);
@@ -168,10 +190,33 @@ class Viewer {
   void lamp_section();
   /// @param at  the pointer, in the picture. @return whether it holds a lamp
   bool hold_lamp(Vec2 at);
+  void forget_objects();
+  void light_objects();
+  /// Lamps shine in the scene as its objects stand.
+  void light_lamps_among_objects();
+  /// @throws UsageError naming those that there are
+  void choose_object(const std::string& name, const std::string& where = {});
+  Vec3 object_place() const;
+  /// The chosen one, as move_lamp().
+  void move_object(const Vec3& to, bool gesture);
+  bool hold_object(Vec2 at);
+  void object_overlay();
+  void object_section();
+  /// Whether objects are not yet where they are wanted.
+  bool objects_pending() const;
+  /// That, or their light is not all there yet.
+  bool objects_moving() const;
+  /// How far bounces are behind objects; "" = not at all.
+  std::string behind() const;
+  /// The scene as it stands, for looking at it.
+  const View& rays() const;
+  /// @return whether a handle of what stands there is held now
+  bool take_grip(Drag& drag, const Vec3& place, Vec2 at) const;
+  void draw_handles(const Vec3& place, Grip held, const std::string& name) const;
   Lens lens() const;
   /// In the window, pixels; none out of sight.
   std::optional<ImVec2> on_screen(const Lens& from, const Vec3& point) const;
-  std::optional<ImVec2> handle_at(const Vec3& lamp, Grip grip) const;
+  std::optional<ImVec2> handle_at(const Vec3& place, Grip grip) const;
   void lamp_overlay();
   void add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux);
   void seek();
@@ -230,6 +275,9 @@ class Viewer {
   Background<MeasuredLight> measuring_, tracing_;
   Background<std::shared_ptr<const Movable>> preparing_;
   Background<LampMover::Fine> refining_;
+  Background<std::shared_ptr<ObjectMover>> finding_;
+  Background<ObjectMover::Fine> shading_;
+  Background<ObjectBounces> following_;
   Background<Image> mirroring_;
   struct Turning {
     Camera start;
@@ -254,8 +302,8 @@ class Viewer {
   std::filesystem::path own_folder_;  ///< of what is baked; goes when the window does
 };
 
-/// What the window says beside numbers while lamps are elsewhere.
-inline constexpr const char* kAsBaked = "with lamps where they were baked";
+/// What the window says beside numbers while lamps or objects are elsewhere.
+inline constexpr const char* kAsBaked = "with all where it was baked";
 
 /// Opens the window and returns when it is closed, or when the script has ended.
 /// @throws Error: no display, old OpenGL, and in a script whatever goes wrong

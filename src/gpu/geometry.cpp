@@ -71,13 +71,23 @@ void add_bends(const ShownScene& shown, std::size_t triangle, std::vector<Bend>&
   for (std::size_t k = 0; k < 3; ++k) out.push_back({tangents[k], place_in(map, world, triangle, k)});
 }
 
+std::vector<Vertex> vertices_of(const ShownScene& shown) {
+  std::vector<Vertex> vertices;
+  vertices.reserve(3 * shown.world.size());
+  for (const SurfaceBatch& batch : surface_batches(shown))
+    for (const uint32_t t : batch.triangles)
+      for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(shown, t, k));
+  return vertices;
+}
+
 /// Vertex attributes of so many floats each, from `first` on. @return the buffer
 template <class T>
 GLuint upload_attributes(const std::vector<T>& vertices, GLuint layout, GLuint binding, GLuint first,
                          std::initializer_list<GLint> floats) {
   GLuint buffer = 0;
   glCreateBuffers(1, &buffer);
-  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(vertices.size() * sizeof(T)), vertices.data(), 0);
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(vertices.size() * sizeof(T)), vertices.data(),
+                       GL_DYNAMIC_STORAGE_BIT);
   glVertexArrayVertexBuffer(layout, binding, buffer, 0, sizeof(T));
   GLuint offset = 0;
   for (const GLint count : floats) {
@@ -109,24 +119,29 @@ Geometry::~Geometry() {
 }
 
 void Geometry::upload_triangles() {
-  std::vector<Vertex> vertices;
   std::vector<Bend> bends;
-  vertices.reserve(3 * shown_->world.size());
+  GLint first = 0;
   for (const SurfaceBatch& batch : surface_batches(*shown_)) {
-    batches_.push_back({batch.material, batch.group, static_cast<GLint>(vertices.size()),
-                        static_cast<GLsizei>(3 * batch.triangles.size())});
-    for (const uint32_t t : batch.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) vertices.push_back(vertex(*shown_, t, k));
-      if (normal_maps_) add_bends(*shown_, t, bends);
-    }
+    const auto count = static_cast<GLsizei>(3 * batch.triangles.size());
+    batches_.push_back({batch.material, batch.group, first, count});
+    first += count;
+    if (normal_maps_)
+      for (const uint32_t t : batch.triangles) add_bends(*shown_, t, bends);
   }
   glCreateVertexArrays(1, &layout_);
-  vertices_ = upload_attributes(vertices, layout_, 0, 0, {3, 2, 2, 2, 3, 3});
+  vertices_ = upload_attributes(vertices_of(*shown_), layout_, 0, 0, {3, 2, 2, 2, 3, 3});
   constexpr GLuint kNormals = 6;
   glEnableVertexArrayAttrib(layout_, kNormals);
   glVertexArrayAttribFormat(layout_, kNormals, 4, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
   glVertexArrayAttribBinding(layout_, kNormals, 0);
   if (normal_maps_) normals_ = upload_attributes(bends, layout_, 1, kNormals + 1, {4, 2});
+}
+
+void Geometry::follow(const ShownScene& shown) {
+  shown_ = &shown;
+  const std::vector<Vertex> vertices = vertices_of(shown);
+  glNamedBufferSubData(vertices_, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+                       vertices.data());
 }
 
 void Geometry::upload_textures(const Context& context) {

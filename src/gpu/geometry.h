@@ -24,6 +24,9 @@ class Geometry {
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
 
+  /// The same triangles at other places. @param shown  must outlive it from now on
+  void follow(const ShownScene& shown);
+
   /// Draws everything with `surface` (gpu/surface.glsl), which is in use.
   /// @param weights  of the light groups, for what emits
   void draw(const Program& surface, const std::vector<Rgb>& weights) const;

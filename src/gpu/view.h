@@ -52,6 +52,8 @@ class View {
   void relight(std::span<AddedLight* const> added);
 
   const Geometry& geometry() const { return geometry_; }
+  /// The same triangles at other places. @param shown  must outlive it from now on
+  void follow(const ShownScene& shown) { shown_ = &shown, geometry_.follow(shown); }
 
   Image linear() const;    ///< cd/m2, before exposure
   Image coverage() const;  ///< share of each pixel that shows an emitter or the sky, one channel

@@ -12,6 +12,7 @@
 #include "package/shown_scene.h"
 #include "picture/hits.h"
 #include "scene/lens.h"
+#include "scene/objects.h"
 #include "trace/tracer.h"
 
 namespace sconce {
@@ -31,8 +32,14 @@ class View {
  public:
   /// Reads the scene and builds its rays. The package must outlive it. @throws Error naming the damaged file
   explicit View(const Package& package);
+  /// One more, whose objects may be moved. The package must outlive it.
+  View(const Package& package, ShownScene shown);
   View(const View&) = delete;
   View& operator=(const View&) = delete;
+
+  /// Puts objects elsewhere; the lightmap's places move along, and skies and parallel lights stay. Nobody may
+  /// look meanwhile.
+  void place(const ObjectPlaces& places, const ObjectMoves& moves);
 
   /// Linear picture, luminance in cd/m2 per channel, before exposure and tone curve: sum_g w_g (eps_g +
   /// rho/pi E_g). Backs are black, but for those with a lightmap of their own (twins) and for what
@@ -110,6 +117,7 @@ class View {
   /// Of the mix's light fields, cd/m2.
   Rgb glints(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, const Sight& sight) const;
   Camera eye_height_camera() const;
+  void find_lamps();
 
   const Package* package_;
   ShownScene shown_;

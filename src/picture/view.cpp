@@ -8,8 +8,20 @@
 
 namespace sconce {
 
-View::View(const Package& package)
-    : package_(&package), shown_(package), tracer_(shown_.scene, shown_.world) {
+View::View(const Package& package) : View(package, ShownScene(package)) {}
+
+View::View(const Package& package, ShownScene shown)
+    : package_(&package), shown_(std::move(shown)), tracer_(shown_.scene, shown_.world) {
+  find_lamps();
+}
+
+void View::place(const ObjectPlaces& places, const ObjectMoves& moves) {
+  places.place(moves, shown_.scene, shown_.world);
+  tracer_ = Tracer(shown_.scene, shown_.world);
+  find_lamps();
+}
+
+void View::find_lamps() {
   const auto any = [](const auto& all, const auto& is) { return std::any_of(all.begin(), all.end(), is); };
   if (!any(scene().luminaires, [](const Luminaire& l) { return l.field != nullptr; }) &&
       !any(scene().materials, [](const Material& m) { return m.emits(); }))

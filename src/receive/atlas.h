@@ -68,8 +68,9 @@ class TexelReceivers {
   /// buried and do not count; texels without any other part are left out and counted invalid.
   /// @pre atlas comes from make_atlas() with the same world
   /// @param ranks  share the search for buried parts
+  /// @param all    also those without any other part, whole: what is above them may move away
   TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas, const Progress& progress = {},
-                 const Ranks& ranks = {});
+                 const Ranks& ranks = {}, bool all = false);
 
   std::size_t size() const { return texels_.size(); }
   std::size_t tiles() const { return (size() + kTile - 1) / kTile; }
@@ -77,6 +78,10 @@ class TexelReceivers {
   uint32_t texel(std::size_t i) const { return texels_[i]; }
   /// Clips the texel's triangles; pieces carry the back's flipped normals where the texel is of a twin chart.
   Footprint footprint(std::size_t i) const;
+  /// Whether all of it lies under or inside other geometry, as the world stands now.
+  bool covered(std::size_t i) const;
+  /// Of the World: the first one under it.
+  uint32_t triangle(std::size_t i) const { return sides_[first_[i]] / 2; }
   /// How much the texel's surface is looked at: (its texels per metre / atlas.density)^2, at most 1; exposure
   /// is metered with area x importance.
   float importance(std::size_t i) const;
@@ -85,6 +90,7 @@ class TexelReceivers {
 
  private:
   const World* world_;
+  const Tracer* tracer_;
   const Atlas* atlas_;
   std::vector<uint32_t> texels_;
   std::vector<uint32_t> first_;  ///< CSR over texels_: range of sides_

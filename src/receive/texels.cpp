@@ -113,8 +113,8 @@ std::vector<uint8_t> suspects(const Atlas& atlas, const Coverage& coverage, cons
 }  // namespace
 
 TexelReceivers::TexelReceivers(const World& world, const Tracer& tracer, Atlas& atlas,
-                               const Progress& progress, const Ranks& ranks)
-    : world_(&world), atlas_(&atlas) {
+                               const Progress& progress, const Ranks& ranks, bool all)
+    : world_(&world), tracer_(&tracer), atlas_(&atlas) {
   const Coverage coverage = cover(atlas);
   const std::size_t n = coverage.texels.size();
   const BurialTest test(world, tracer, atlas);
@@ -139,9 +139,9 @@ TexelReceivers::TexelReceivers(const World& world, const Tracer& tracer, Atlas& 
   for (std::size_t i = 0; i < n; ++i) {
     const uint32_t chart = chart_of(i);
     if (cells[i] == 0 && alive[chart] == 0 && atlas.seen_charts[chart] != 0) cells[i] = kAllCells;
-    if (cells[i] == 0) continue;
+    if (cells[i] == 0 && !all) continue;
     texels_.push_back(coverage.texels[i]);
-    cells_.push_back(cells[i]);
+    cells_.push_back(cells[i] != 0 ? cells[i] : kAllCells);
     for (const uint32_t side : coverage.of(i)) sides_.push_back(side);
     first_.push_back(static_cast<uint32_t>(sides_.size()));
   }
@@ -175,6 +175,12 @@ Footprint TexelReceivers::footprint(std::size_t i) const {
   if (result.pieces.empty()) result.pieces.push_back(whole_side(*world_, sides.front()));
   result.area = finish(result.pieces);
   return result;
+}
+
+bool TexelReceivers::covered(std::size_t i) const {
+  const std::span<const uint32_t> sides(sides_.data() + first_[i], sides_.data() + first_[i + 1]);
+  const BurialTest test(*world_, *tracer_, *atlas_);
+  return !test.clearly_free(texels_[i], sides) && test.free_cells(texels_[i], sides) == 0;
 }
 
 Rgb TexelReceivers::albedo(const Scene& scene, std::size_t i) const {

@@ -7,6 +7,7 @@
 #include "core/sobol.h"
 #include "picture/glint.h"
 #include "picture/seen.h"
+#include "trace/box.h"
 
 namespace sconce {
 
@@ -89,8 +90,9 @@ std::vector<std::pair<std::size_t, Rgb>> MovedLamps::chosen() const {
   return out;
 }
 
-Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const {
-  Rgb sum;
+template <class Wanted, class Add>
+void MovedLamps::light(const SurfacePoint& at, uint32_t stream, uint32_t index, const Wanted& wanted,
+                       const Add& add) const {
   const Vec3 start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
   const float offset = glm::distance(start, at.position);
   for (const Chosen& chosen : chosen_) {
@@ -99,14 +101,30 @@ Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t in
     if (!lamps_.sample(chosen.lamp, at.position, u, light) || light.radiance.is_black()) continue;
     const float cosine = glm::dot(light.direction, at.shading_normal);
     if (!(cosine > 0) || !(glm::dot(light.direction, at.geometric_normal) > 0)) continue;
+    if (!wanted(Ray{start, light.direction, light.distance})) continue;
     const float end = shadow_end(light, offset);
     const Rgb passed = end > 0 ? tracer_.transmittance({start, light.direction, end}) : Rgb(1.0f);
     if (passed.is_black()) continue;
     const float density = light.delta ? 1 : light.pdf + (chosen.met ? cosine * kInvPi : 0);
-    sum += chosen.weight * passed * light.radiance * (cosine / density);
+    add(chosen.lamp, chosen.weight * passed * light.radiance * (cosine / density));
   }
-  if (!met_.empty()) sum += met(at, start, stream, index);
+  if (!met_.empty()) met(at, start, stream, index, wanted, add);
+}
+
+Rgb MovedLamps::illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const {
+  Rgb sum;
+  light(
+      at, stream, index, [](const Ray&) { return true; }, [&](std::size_t, const Rgb& e) { sum += e; });
   return sum;
+}
+
+void MovedLamps::add_light_through(std::span<const Bounds> boxes, const SurfacePoint& at, uint32_t stream,
+                                   uint32_t index, std::span<Rgb> groups) const {
+  light(
+      at, stream, index, [&](const Ray& ray) { return meets(boxes, ray); },
+      [&](std::size_t lamp, const Rgb& e) {
+        if (const Id<LightGroup> group = lamps_.all()[lamp].group; group) groups[group.value] += e;
+      });
 }
 
 Rgb MovedLamps::glints(const MixSpec& mix, const Shade& surface, const Vec3& to_eye, const SurfacePoint& at,
@@ -123,28 +141,31 @@ Rgb MovedLamps::glints(const MixSpec& mix, const Shade& surface, const Vec3& to_
   return sum;
 }
 
-Rgb MovedLamps::met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index) const {
+template <class Wanted, class Add>
+void MovedLamps::met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index,
+                     const Wanted& wanted, const Add& add) const {
   const Vec3 direction =
       Frame(at.shading_normal).to_world(square_to_cosine(sobol_pair(index, 0, mix32(stream, kMetStream))));
   const float cosine = glm::dot(direction, at.shading_normal);
-  if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return {};
+  if (!(cosine > 0) || !(glm::dot(direction, at.geometric_normal) > 0)) return;
+  if (!wanted(Ray{start, direction})) return;
   const auto share = [&](float density) { return cosine / (density + cosine * kInvPi); };
   const auto [hit, passed] =
       tracer_.follow({start, direction}, [&] { return sobol_pair(index, 1, mix32(stream, kMetStream)).x; });
-  Rgb sum;
   if (!hit) {
     for (const uint32_t sky : lamps_.skies())
       if (!met_[sky].is_black())
-        sum +=
-            met_[sky] * passed * lamps_.sky_radiance(sky, direction) * share(lamps_.sky_pdf(sky, direction));
-    return sum;
+        add(sky,
+            met_[sky] * passed * lamps_.sky_radiance(sky, direction) * share(lamps_.sky_pdf(sky, direction)));
+    return;
   }
   const int lamp = lamps_.lamp_of(hit.triangle);
-  if (lamp < 0 || met_[static_cast<std::size_t>(lamp)].is_black()) return {};
+  if (lamp < 0 || met_[static_cast<std::size_t>(lamp)].is_black()) return;
   const Rgb emission = lamps_.emission(hit.triangle, hit.barycentric, hit.back);
-  if (emission.is_black()) return {};
-  return met_[static_cast<std::size_t>(lamp)] * passed * emission *
-         share(lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction));
+  if (emission.is_black()) return;
+  add(static_cast<std::size_t>(lamp),
+      met_[static_cast<std::size_t>(lamp)] * passed * emission *
+          share(lamps_.pdf(hit.triangle, hit.barycentric, hit.distance, direction)));
 }
 
 std::vector<std::string> MovedLamps::buried() const {

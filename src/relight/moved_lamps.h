@@ -31,6 +31,11 @@ class MovedLamps {
   /// soft shadow. Thread-safe.
   Rgb illuminance(const SurfacePoint& at, uint32_t stream, uint32_t index) const;
 
+  /// The same by light group, added to `groups`; but only what comes by rays that meet one of the boxes. Two
+  /// worlds that differ within boxes alone differ by this at any point, sample by sample.
+  void add_light_through(std::span<const Bounds> boxes, const SurfacePoint& at, uint32_t stream,
+                         uint32_t index, std::span<Rgb> groups) const;
+
   /// What a glossy surface mirrors of all light fields, these and those of the mix, cd/m2 (picture/glint.h).
   /// Thread-safe.
   Rgb glints(const MixSpec& mix, const Shade& surface, const Vec3& to_eye, const SurfacePoint& at,
@@ -45,7 +50,13 @@ class MovedLamps {
     Rgb weight;
     bool met = false;  ///< rays can meet it
   };
-  Rgb met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index) const;
+  /// Calls add(lamp, lux) for light by rays that are wanted(ray).
+  template <class Wanted, class Add>
+  void light(const SurfacePoint& at, uint32_t stream, uint32_t index, const Wanted& wanted,
+             const Add& add) const;
+  template <class Wanted, class Add>
+  void met(const SurfacePoint& at, const Vec3& start, uint32_t stream, uint32_t index, const Wanted& wanted,
+           const Add& add) const;
 
   const World& world_;
   const Tracer& tracer_;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "light/test_rig.h"
 #include "scene/lens.h"
+#include "scene/objects.h"
 #include "scene/shapes.h"
 
 namespace sconce {
@@ -137,6 +138,36 @@ TEST(MovedLamps, OneOfAGroupLeavesTheOthersInTheirLayer) {
   EXPECT_TRUE(in_part(all).empty());
   const MovedLamps both(room.scene, room.world, room.tracer, {}, all, {&move, 1});
   EXPECT_NEAR(sampled(both, Vec3(3, 0, 0), 1).mean, 0.5 * (4 + 4 / 4.0), 1e-5);
+}
+
+// Rays that meet the box of a shade tell all that differs between a world with it and one without.
+TEST(MovedLamps, LightThroughABoxIsWhatDiffersWithinIt) {
+  Scene shaded = lamp_scene();
+  const auto black = add_material(shaded, "black", Rgb(0));
+  add_quad(shaded, "shade", black, Vec3(2.8f, 1, -0.2f), Vec3(0, 0, 0.4f), Vec3(0.4f, 0, 0));
+  const Room open(lamp_scene()), dark(shaded);
+  const Bounds box = object_bounds(dark.scene, dark.world, "shade");
+  const auto all = [](const Room& room) {
+    std::vector<MovedGroup> groups;
+    for (std::size_t g = 0; g < room.scene.groups.size(); ++g) groups.push_back({Id<LightGroup>(g), Rgb(1)});
+    return groups;
+  };
+  const std::vector<MovedGroup> groups = all(open);
+  const MovedLamps without(open.scene, open.world, open.tracer, {}, groups),
+      with(dark.scene, dark.world, dark.tracer, {}, groups);
+  // 12. Below the shade the bulb's I / d2 is missing, and all of it comes through the box.
+  std::vector<Rgb> lost(open.scene.groups.size());
+  without.add_light_through({&box, 1}, facing_up(Vec3(3, 0, 0)), 7, 0, lost);
+  EXPECT_NEAR(lost[open.group("bulb").value].g, 4 / 4.0f, 1e-5f);
+  for (uint32_t i = 0; i < 256; ++i) {
+    const SurfacePoint at = facing_up(Vec3(0.02f * static_cast<float>(i), 0, 0.1f));
+    std::vector<Rgb> difference(groups.size()), taken(groups.size());
+    without.add_light_through({&box, 1}, at, 7, i, difference);
+    with.add_light_through({&box, 1}, at, 7, i, taken);
+    Rgb sum;
+    for (std::size_t g = 0; g < groups.size(); ++g) sum += difference[g] - taken[g];
+    EXPECT_NEAR(sum.g, (without.illuminance(at, 7, i) - with.illuminance(at, 7, i)).g, 1e-5f) << i;
+  }
 }
 
 TEST(MovedLamps, UnknownNamesAndSunsAreRefused) {

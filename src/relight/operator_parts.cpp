@@ -7,6 +7,7 @@
 #include "core/sobol.h"
 #include "relight/row_maker.h"
 #include "relight/training_lights.h"
+#include "trace/box.h"
 
 namespace sconce {
 
@@ -35,18 +36,6 @@ void share(ClusterRowsBuilder& builder, const Ranks& ranks) {
   ranks.share(
       builder.clusters(), [&](std::size_t c, std::string& bytes) { builder.pack(c, bytes); },
       [&](std::size_t c, std::string_view& bytes) { builder.unpack(c, bytes); });
-}
-
-/// Where a ray enters a box; nothing where it does not.
-std::optional<float> entry(const Bounds& box, const Ray& ray) {
-  float near = 0, far = 1e30f;
-  for (int k = 0; k < 3; ++k) {
-    const float a = (box.lo[k] - ray.origin[k]) / ray.direction[k],
-                b = (box.hi[k] - ray.origin[k]) / ray.direction[k];
-    // Along a plane of the box a or b is nan: then the ray counts as within.
-    near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
-  }
-  return near > far ? std::nullopt : std::optional(near);
 }
 
 bool any(std::span<const uint8_t> flags, std::size_t first, std::size_t count) {

@@ -21,6 +21,23 @@ struct Before {
   }
 };
 
+AllTexels find_texels(const TracedScene& traced, Atlas atlas, const Progress& progress, bool all) {
+  struct State {
+    Atlas atlas;
+    std::unique_ptr<TexelReceivers> texels;
+  };
+  const auto state = std::make_shared<State>();
+  state->atlas = std::move(atlas);
+  state->texels =
+      std::make_unique<TexelReceivers>(traced.world, traced.tracer, state->atlas, progress, Ranks{}, all);
+  RelightReceivers out;
+  out.width = state->atlas.width, out.height = state->atlas.height, out.pages = state->atlas.pages;
+  for (std::size_t i = 0; i < state->texels->size(); ++i) out.places.push_back(state->texels->texel(i));
+  out.source = {state->texels->size(), [state](std::size_t i) { return state->texels->footprint(i); }};
+  out.albedo = [state, &scene = traced.scene](std::size_t i) { return state->texels->albedo(scene, i); };
+  return {out, {state, state->texels.get()}};
+}
+
 }  // namespace
 
 // layout.bin counts triangles as the source did; the package has them sorted by page. A triangle's place in
@@ -60,19 +77,11 @@ Atlas package_atlas(const Package& package, const View& view) {
 }
 
 RelightReceivers texel_receivers(const TracedScene& traced, Atlas atlas, const Progress& progress) {
-  struct State {
-    Atlas atlas;
-    std::unique_ptr<TexelReceivers> texels;
-  };
-  const auto state = std::make_shared<State>();
-  state->atlas = std::move(atlas);
-  state->texels = std::make_unique<TexelReceivers>(traced.world, traced.tracer, state->atlas, progress);
-  RelightReceivers out;
-  out.width = state->atlas.width, out.height = state->atlas.height, out.pages = state->atlas.pages;
-  for (std::size_t i = 0; i < state->texels->size(); ++i) out.places.push_back(state->texels->texel(i));
-  out.source = {state->texels->size(), [state](std::size_t i) { return state->texels->footprint(i); }};
-  out.albedo = [state, &scene = traced.scene](std::size_t i) { return state->texels->albedo(scene, i); };
-  return out;
+  return find_texels(traced, std::move(atlas), progress, false).receivers;
+}
+
+AllTexels all_texels(const TracedScene& traced, Atlas atlas, const Progress& progress) {
+  return find_texels(traced, std::move(atlas), progress, true);
 }
 
 RelightReceivers texel_receivers(const Package& package, const View& view, const Progress& progress) {
@@ -134,15 +143,21 @@ void add_to_pages(const Package& package, const View& view, const Operator& op, 
 
 void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light,
                   std::vector<Image>& pages) {
-  const std::size_t page_size = static_cast<std::size_t>(op.width) * static_cast<std::size_t>(op.height);
-  for (int page = 0; page < op.pages; ++page) {
-    Image own = Image::rgb(op.width, op.height);
+  add_to_pages(atlas, op.places, light, pages);
+}
+
+void add_to_pages(const Atlas& atlas, std::span<const uint32_t> places, std::span<const Rgb> light,
+                  std::vector<Image>& pages) {
+  const std::size_t page_size =
+      static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height);
+  for (int page = 0; page < atlas.pages; ++page) {
+    Image own = Image::rgb(atlas.width, atlas.height);
     std::vector<uint8_t> valid(page_size, 0);
-    for (std::size_t i = 0; i < op.places.size(); ++i) {
-      if (op.places[i] / page_size != static_cast<std::size_t>(page)) continue;
-      const std::size_t at = op.places[i] % page_size;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i] / page_size != static_cast<std::size_t>(page)) continue;
+      const std::size_t at = places[i] % page_size;
       valid[at] = 1;
-      own.set_rgb(static_cast<int>(at) % op.width, static_cast<int>(at) / op.width, light[i]);
+      own.set_rgb(static_cast<int>(at) % atlas.width, static_cast<int>(at) / atlas.width, light[i]);
     }
     fill_gaps(atlas, page, valid, own);
     Image& sum = pages[static_cast<std::size_t>(page)];

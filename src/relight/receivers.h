@@ -27,6 +27,13 @@ Atlas package_atlas(const Package& package, const View& view);
 /// The texels of a lightmap. The scene must outlive it.
 RelightReceivers texel_receivers(const TracedScene& traced, Atlas atlas, const Progress& progress = {});
 
+/// Texels with those that lie under things which may move away.
+struct AllTexels {
+  RelightReceivers receivers;
+  std::shared_ptr<const TexelReceivers> texels;  ///< the same
+};
+AllTexels all_texels(const TracedScene& traced, Atlas atlas, const Progress& progress = {});
+
 /// The vertices of the world: each a little into the faces around it, by their area, since a point on the
 /// edge of a room lies in the planes of its walls. Places are vertices; those without faces are none.
 RelightReceivers vertex_receivers(const TracedScene& traced);
@@ -40,6 +47,9 @@ void add_to_pages(const Package& package, const View& view, const Operator& op, 
                   std::vector<Image>& pages);
 /// The same where the package's atlas is at hand.
 void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light,
+                  std::vector<Image>& pages);
+/// @param places  of the light, page x height x width + y x width + x
+void add_to_pages(const Atlas& atlas, std::span<const uint32_t> places, std::span<const Rgb> light,
                   std::vector<Image>& pages);
 
 /// What the middles of pixels see; pixels that see nothing or a black back are none.

@@ -13,15 +13,26 @@ namespace sconce {
 
 Movable::Movable(std::shared_ptr<const Opened> opened_, const Progress& progress)
     : opened(std::move(opened_)),
+      view(opened->rays),
       op(find_operator(opened->package, "")),
-      bounces(op),
+      bounces(std::make_shared<const FoldedBounces>(op)),
       atlas(package_atlas(opened->package, opened->rays)),
       texels(texel_receivers(opened->rays.traced(), atlas, progress)),
       lamps(opened->rays.scene(), opened->rays.world()),
       names(lamp_names(lamps)) {}
 
+Movable::Movable(std::shared_ptr<const Opened> opened_, const View& view_, const ObjectBounces& bounces_,
+                 Atlas atlas_, RelightReceivers texels_)
+    : opened(std::move(opened_)),
+      view(view_),
+      op(*bounces_.op),
+      bounces(bounces_.folded),
+      atlas(std::move(atlas_)),
+      texels(std::move(texels_)),
+      lamps(view.scene(), view.world()),
+      names(lamp_names(lamps)) {}
+
 MovedLamps Movable::alone(std::size_t lamp, const std::optional<MovedLamp>& to) const {
-  const View& view = opened->rays;
   const Lamp& shape = lamps.all()[lamp];
   LampMove move{{lamp}, {shape.group}, Mat4(1.0f)};
   if (to) move.motion = motion_to(lamps, move.lamps, {to->at, to->target}, names[lamp], "target");
@@ -31,13 +42,12 @@ MovedLamps Movable::alone(std::size_t lamp, const std::optional<MovedLamp>& to) 
 }
 
 MovedLamps Movable::alone(const MoreLights& others) const {
-  const View& view = opened->rays;
   return MovedLamps(view.scene(), view.world(), view.tracer(), others, {});
 }
 
 std::vector<Rgb> Movable::light(const MovedLamps& lamp, bool fine, const Progress& progress) const {
   return with_indirect(fine ? direct_over_texels(op, texels, lamp, progress) : direct_at_middles(op, lamp),
-                       opened->package, opened->rays, op, bounces, lamp);
+                       opened->package, view, op, *bounces, lamp);
 }
 
 std::vector<SceneLamp> movable_lamps(const Opened& opened) {
@@ -50,12 +60,17 @@ std::vector<SceneLamp> movable_lamps(const Opened& opened) {
 }
 
 std::vector<std::size_t> LampMover::find(const std::string& name, const std::string& where) const {
-  return find_lamps(movable_->opened->rays.scene(), movable_->lamps, name, where).lamps;
+  return find_lamps(movable_->view.scene(), movable_->lamps, name, where).lamps;
 }
 
 std::optional<Vec3> LampMover::place(std::size_t lamp, const MovedPlaces& moved) const {
   const auto it = moved.find(lamp);
   return it != moved.end() ? it->second.at : place_of(movable_->lamps.all().at(lamp));
+}
+
+void LampMover::set_movable(std::shared_ptr<const Movable> movable) {
+  movable_ = std::move(movable);
+  for (auto& [lamp, entry] : moved_) entry.before = {}, entry.now.stale = true;
 }
 
 void LampMover::follow(const MovedPlaces& moved) {
@@ -129,7 +144,8 @@ std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {
   return take_lamps(movable_->lamps, {}, moves, false, mix);
 }
 
-std::vector<Image> LampMover::pages(Mixer& mixer, const MixSpec& mix) const {
+std::vector<Image> LampMover::pages(const std::function<std::vector<Image>(const MixSpec&)>& mixed,
+                                    const MixSpec& mix) const {
   MixSpec layers = mix;
   std::vector<Rgb> leaves(movable_->op.places.size());
   const std::vector<MovedGroup> groups = taken(layers), parts = in_part(groups);
@@ -143,7 +159,7 @@ std::vector<Image> LampMover::pages(Mixer& mixer, const MixSpec& mix) const {
       if (stays) leaves[i] += weight * entry.before.light[i];
     }
   }
-  std::vector<Image> pages = mixer.mix(layers);
+  std::vector<Image> pages = mixed(layers);
   take_share(movable_->atlas, movable_->op, leaves, pages);
   return pages;
 }

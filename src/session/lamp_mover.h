@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "mix/mixer.h"
+#include "relight/object_follower.h"
 #include "relight/texel_light.h"
 #include "session/opened.h"
 #include "session/session.h"
@@ -17,6 +18,11 @@ namespace sconce {
 struct Movable {
   /// @throws Error when the package has no operator for its lightmap
   explicit Movable(std::shared_ptr<const Opened> opened, const Progress& progress = {});
+  /// Of the same package with objects elsewhere, as the view has them.
+  /// @param view, bounces  of the package; the view must outlive it, and rest while its light is asked for
+  /// @param texels         those of the view
+  Movable(std::shared_ptr<const Opened> opened, const View& view, const ObjectBounces& bounces, Atlas atlas,
+          RelightReceivers texels);
   Movable(const Movable&) = delete;
   Movable& operator=(const Movable&) = delete;
 
@@ -31,8 +37,9 @@ struct Movable {
   std::vector<Rgb> light(const MovedLamps& lamp, bool fine, const Progress& progress = {}) const;
 
   std::shared_ptr<const Opened> opened;
+  const View& view;
   Operator op;
-  FoldedBounces bounces;
+  std::shared_ptr<const FoldedBounces> bounces;
   Atlas atlas;
   RelightReceivers texels;
   Lamps lamps;
@@ -52,6 +59,8 @@ class LampMover {
                      std::function<OtherLamp(std::size_t, const MovedLamp&)> other = {})
       : movable_(std::move(movable)), other_(std::move(other)) {}
   const Movable& movable() const { return *movable_; }
+  /// Objects or bounces are elsewhere now: all light is made anew.
+  void set_movable(std::shared_ptr<const Movable> movable);
   const std::shared_ptr<const Movable>& shared() const { return movable_; }
 
   /// Lamps of one name, or of a group. @throws UsageError naming those that there are
@@ -89,7 +98,9 @@ class LampMover {
 
   /// The mixed lightmap with moved lamps where they are: they leave layers that stay, and groups that went as
   /// a whole leave the mix.
-  std::vector<Image> pages(Mixer& mixer, const MixSpec& mix) const;
+  /// @param mixed  the pages of a mix with all lamps at home
+  std::vector<Image> pages(const std::function<std::vector<Image>(const MixSpec&)>& mixed,
+                           const MixSpec& mix) const;
 
  private:
   struct Lit {

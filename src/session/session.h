@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "mix/mix.h"
+#include "scene/objects.h"
 #include "session/fader.h"
 #include "session/history.h"
 #include "session/script.h"
@@ -27,7 +28,7 @@ struct MovedLamp {
 /// By their number in Lamps::all().
 using MovedPlaces = std::map<std::size_t, MovedLamp>;
 
-/// What a preset keeps, but for the camera.
+/// What a preset keeps, but for the camera; and where lamps and objects went.
 struct Mood {
   Faders faders;
   bool automatic = false;  ///< exposure follows the mix; else ev100 holds
@@ -35,6 +36,7 @@ struct Mood {
   double ev100 = 9;
   std::string tone = "agx";
   MovedPlaces moved{};
+  ObjectMoves objects{};
 
   bool operator==(const Mood&) const = default;
 };

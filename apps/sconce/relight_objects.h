@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects of a package elsewhere, for `sconce relight --object`.
+#pragma once
+
+#include "relight/moved_objects.h"
+#include "relight/object_follower.h"
+
+namespace sconce::app {
+
+/// `NAME=X,Y,Z`. @throws UsageError
+std::pair<std::string, Vec3> parse_object(const std::string& text);
+
+class ObjectsElsewhere {
+ public:
+  /// @param places  where middles go. Package and view must outlive it. @throws UsageError, Cancelled
+  ObjectsElsewhere(const Package& package, const View& home,
+                   const std::vector<std::pair<std::string, Vec3>>& places, const Progress& progress);
+  const View& view() const { return objects_.view(); }
+  const Operator& transfer() const { return *bounces_.op; }
+  void add_to(std::vector<Image>& pages, const MixSpec& mix) const {
+    objects_.add_to(pages, mix, direct_, bounces_.light, follower_.home().light);
+  }
+
+ private:
+  MovedObjects objects_;
+  ObjectFollower follower_;
+  std::vector<Rgb> direct_;
+  ObjectBounces bounces_;
+};
+
+}  // namespace sconce::app

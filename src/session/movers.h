@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that stands elsewhere than it was baked, as one lightmap.
+#pragma once
+
+#include "session/lamp_mover.h"
+#include "session/object_mover.h"
+
+namespace sconce {
+
+struct Movers {
+  const LampMover* lamps = nullptr;      ///< null where lamps stay
+  const ObjectMover* objects = nullptr;  ///< null where objects do
+
+  bool any() const { return (lamps != nullptr && lamps->any()) || (objects != nullptr && objects->any()); }
+  /// Counts changes of light.
+  uint64_t version() const {
+    return (lamps != nullptr ? lamps->version() : 0) + (objects != nullptr ? objects->version() : 0);
+  }
+  /// The mixed lightmap.
+  std::vector<Image> pages(Mixer& mixer, const MixSpec& mix) const {
+    const auto mixed = [&](const MixSpec& of) {
+      return objects != nullptr ? objects->pages(mixer.mix(of), of) : mixer.mix(of);
+    };
+    return lamps != nullptr && lamps->any() ? lamps->pages(mixed, mix) : mixed(mix);
+  }
+};
+
+}  // namespace sconce
