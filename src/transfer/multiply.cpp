@@ -61,34 +61,21 @@ void multiply_block(const WaveletRows& rows, std::size_t block, const Rgbx* ligh
   }
 }
 
-/// The coefficients of a block of which there is light: numbers [begin, end) of those whose index is lit.
-void keep_lit(const WaveletRows& rows, uint32_t begin, uint32_t end, const uint32_t* lit,
-              std::vector<uint32_t>& kept) {
-  const hn::ScalableTag<uint32_t> d;
-  const hn::RebindToSigned<decltype(d)> places;
-  const hn::Rebind<uint16_t, decltype(d)> d16;
-  const std::size_t lanes = hn::Lanes(d);
-  kept.resize(end - begin + lanes);  // stores are whole vectors
-  std::size_t count = 0;
-  uint32_t k = begin;
-  for (; k + lanes <= end; k += static_cast<uint32_t>(lanes)) {
-    const auto index = hn::PromoteTo(d, hn::LoadU(d16, rows.indices.data() + k));
-    const auto flags = hn::GatherIndex(d, lit, hn::BitCast(places, index));
-    count += hn::CompressStore(hn::Iota(d, k), hn::Ne(flags, hn::Zero(d)), d, kept.data() + count);
-  }
-  for (; k < end; ++k) {
-    kept[count] = k;
-    count += lit[rows.indices[k]];
-  }
-  kept.resize(count);
-}
-
 /// @param lit  per coefficient of light: 1, or 0 to pass over it; null to look at all
 void multiply_blocks(const WaveletRows& rows, std::size_t first, std::size_t end, const Rgbx* light,
-                     const uint32_t* lit, Rgb* out) {
+                     const uint8_t* lit, Rgb* out) {
   std::vector<uint32_t> entries;
   for (std::size_t block = first; block < end; ++block) {
-    if (lit != nullptr) keep_lit(rows, rows.first[block], rows.first[block + 1], lit, entries);
+    if (lit != nullptr) {
+      const uint32_t begin = rows.first[block], count = rows.first[block + 1] - begin;
+      entries.resize(count);
+      std::size_t kept = 0;
+      for (uint32_t k = begin; k < begin + count; ++k) {  // no branch: it would be guessed wrong too often
+        entries[kept] = k;
+        kept += lit[rows.indices[k]];
+      }
+      entries.resize(kept);
+    }
     multiply_block(rows, block, light, lit != nullptr ? &entries : nullptr,
                    out + WaveletRows::kBlock * block);
   }
@@ -162,14 +149,11 @@ void multiply_exactly(const WaveletRows& rows, std::span<const Rgbx> light, std:
 
 void multiply(const WaveletRows& rows, std::span<const Rgbx> light, std::span<Rgb> out, Zeros zeros) {
   if (!rows.values.empty()) return multiply_exactly(rows, light, out);
-  std::vector<uint32_t> lit;
+  std::vector<uint8_t> lit;
   if (zeros == Zeros::skip) {
     lit.resize(light.size());
-    constexpr std::size_t kPart = 4096;
-    parallel_for((light.size() + kPart - 1) / kPart, 1, [&](std::size_t part) {
-      for (std::size_t c = kPart * part; c < std::min(light.size(), kPart * (part + 1)); ++c)
-        lit[c] = light[c][0] != 0 || light[c][1] != 0 || light[c][2] != 0 ? 1 : 0;
-    });
+    for (std::size_t c = 0; c < light.size(); ++c)
+      lit[c] = light[c][0] != 0 || light[c][1] != 0 || light[c][2] != 0 ? 1 : 0;
   }
   constexpr std::size_t kGrain = 64;
   parallel_for((rows.blocks() + kGrain - 1) / kGrain, 1, [&](std::size_t part) {
