@@ -38,6 +38,15 @@ std::tuple<std::string, int, std::string> channel_key(const std::string& name) {
   return {layer, rank == std::string_view::npos ? 4 : static_cast<int>(rank), leaf};
 }
 
+namespace {
+
+/// Fit to be shown.
+bool plain(const std::string& name) {
+  return name.size() < 64 && std::all_of(name.begin(), name.end(), [](char c) { return c > 32 && c < 127; });
+}
+
+}  // namespace
+
 // OpenEXR file layout: attributes are name, type, bytes (int32), value; an empty name ends a part's header.
 void check_attributes(std::string_view bytes) {
   constexpr std::size_t kHead = 8;  // magic, version and flags
@@ -58,7 +67,8 @@ void check_attributes(std::string_view bytes) {
       if (bytes.size() - at >= sizeof size) std::memcpy(&size, bytes.data() + at, sizeof size);
       at = std::min(at + sizeof size, bytes.size());
       if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - at)
-        throw std::runtime_error("attribute '" + name + "' reaches beyond the file");
+        throw std::runtime_error(plain(name) ? "attribute '" + name + "' reaches beyond the file"
+                                             : "an attribute reaches beyond the file");
       at += static_cast<std::size_t>(size);
     }
   } while ((flags & kManyParts) != 0 && at < bytes.size() && bytes[at] != '\0');
