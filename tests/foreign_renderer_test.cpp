@@ -27,9 +27,10 @@ Rgb rgb(const room::Triple& t) {
 /// The renderer's room, for rays.
 class Paths {
  public:
-  explicit Paths(const room::Lamp& lamp) : lamp_(lamp) {
+  Paths(const room::Lamp& lamp, bool repainted) : lamp_(lamp) {
     for (const room::Paint& paint : room::kPaints)
       add_material(scene_, paint.name, rgb(paint.color), rgb(paint.emission));
+    if (repainted) scene_.materials[room::kRepainted].base_color = rgb(room::kNewColor);
     for (const room::Wall& w : room::walls())
       add_quad(scene_, "wall", Id<Material>(w.paint), vec(w.corner), vec(w.a), vec(w.b));
     world_ = make_world(scene_);
@@ -143,12 +144,20 @@ TEST_P(Renderer, BouncesAreThoseOfPaths) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find("Lambertian"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("reflectance 0.6500 0.1200 0.1000"), std::string::npos) << outcome.out;
+  // What reading back took is told of every frame, and is part of what the renderer took.
+  double drawn = 0, read = 0;
+  const std::size_t frame = outcome.out.find("frame: ");
+  ASSERT_NE(frame, std::string::npos) << outcome.out;
+  ASSERT_EQ(std::sscanf(&outcome.out[frame], "frame: %lf ms in the renderer, %lf of them", &drawn, &read), 2);
+  EXPECT_GT(read, 0);
+  EXPECT_LT(read, drawn);
   room::Lamp lamp;
-  for (const std::string change : {"", "changed-"}) {
-    const Difference d = difference(out_ + "-" + (change.empty() ? "with" : "changed") + ".exr",
-                                    out_ + "-" + change + "direct.exr", Paths(lamp).indirect(256));
-    RecordProperty(change + "rmse", std::to_string(d.relative_rmse));
-    RecordProperty(change + "mean", std::to_string(d.mean_ratio));
+  for (const std::string change : {"", "changed", "painted"}) {
+    const Difference d = difference(out_ + "-" + (change.empty() ? "with" : change) + ".exr",
+                                    out_ + "-" + change + (change.empty() ? "" : "-") + "direct.exr",
+                                    Paths(lamp, change == "painted").indirect(256));
+    RecordProperty(change + " rmse", std::to_string(d.relative_rmse));
+    RecordProperty(change + " mean", std::to_string(d.mean_ratio));
     EXPECT_LT(d.relative_rmse, 0.10);
     EXPECT_NEAR(d.mean_ratio, 1, 0.03);
     lamp.falloff = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glue.h"
 
+#include <GL/gl.h>
 #include <OgreShaderFFPRenderState.h>
 #include <OgreShaderFunction.h>
 #include <OgreShaderGenerator.h>
@@ -9,6 +10,7 @@
 #include <OgreShaderRenderState.h>
 #include <OgreShaderSubRenderState.h>
 
+#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -206,7 +208,25 @@ void OgreRadiosity::take(Ogre::Entity& entity, Scene& out) {
   }
 }
 
+void OgreRadiosity::follow_materials() {
+  bool changed = false;
+  for (const auto& [own, paint] : paints_) {
+    const Ogre::Pass &is = *own->getTechnique(0)->getPass(0), &was = *paint.bare->getTechnique(0)->getPass(0);
+    if (is.getDiffuse() == was.getDiffuse() && is.getSpecular() == was.getSpecular() &&
+        is.getShininess() == was.getShininess() && is.getSelfIllumination() == was.getSelfIllumination())
+      continue;
+    changed = true;
+    paint.bare->setDiffuse(is.getDiffuse());
+    paint.bare->setSpecular(is.getSpecular());
+    paint.bare->setShininess(is.getShininess());
+    paint.bare->setSelfIllumination(is.getSelfIllumination());
+    shader::ShaderGenerator::getSingleton().invalidateMaterial(kScheme, paint.bare->getName(), kGroup);
+  }
+  if (changed) map_.detect();
+}
+
 FrameReport OgreRadiosity::update() {
+  follow_materials();
   FrameReport report = map_.update();
   show(true);
   return report;
@@ -276,8 +296,12 @@ Drawing OgreRadiosity::draw_faces(const DrawRequest& request) {
   Ogre::RenderTexture* render = target_->getBuffer()->getRenderTarget();
   render->getViewport(0)->setBackgroundColour(Ogre::ColourValue::White * request.background);
   render->update();
+  glFinish();  // what comes now is reading back
+  const auto drawn = std::chrono::steady_clock::now();
   Drawing drawing{request.width, request.height, std::vector<float>(3 * request.pixels()), {}};
   target_->getBuffer()->blitToMemory(
       {target_->getWidth(), target_->getHeight(), 1, Ogre::PF_FLOAT32_RGB, drawing.values.data()});
+  drawing.read_milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - drawn).count();
   return drawing;
 }

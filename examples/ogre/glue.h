@@ -17,7 +17,8 @@ class OgreRadiosity {
   /// @throws sconce::Error: an entity that cannot be taken; the renderer's faults
   OgreRadiosity(Ogre::SceneManager& scene, const std::string& scheme);
 
-  /// Reads the direct light and brings the ambient map up to date.
+  /// Reads the direct light and brings the ambient map up to date. Materials whose colours the program has
+  /// changed are looked at again. @throws sconce::Error: they cannot be, and stay as they were found
   sconce::FrameReport update();
   /// Whether the materials add it.
   void show(bool on);
@@ -38,6 +39,7 @@ class OgreRadiosity {
     Ogre::HardwareVertexBufferSharedPtr buffer;        ///< of them
   };
 
+  void follow_materials();
   sconce::Scene collect();
   void take(Ogre::Entity& entity, sconce::Scene& out);
   sconce::Drawing draw(const sconce::DrawRequest& request);

@@ -91,6 +91,14 @@ class Program {
     picture("changed-direct");
     room::print(radiosity.update());
     picture("changed");
+    // And has its walls painted.
+    Ogre::MaterialManager::getSingleton()
+        .getByName(room::kPaints[room::kRepainted].name)
+        ->setDiffuse(colour(room::kNewColor));
+    radiosity.show(false);
+    picture("painted-direct");
+    room::print(radiosity.update());
+    picture("painted");
   }
 
  private:

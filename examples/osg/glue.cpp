@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glue.h"
 
+#include <chrono>
 #include <osg/Program>
 #include <osg/Shader>
 #include <osg/TriangleIndexFunctor>
@@ -39,6 +40,16 @@ osg::ref_ptr<osg::Array> expanded_any(osg::Array* from, const std::vector<unsign
   throw Error("geometry", std::string("has vertex data of type ") + from->className(),
               "Vec2Array, Vec3Array, Vec4Array, Vec4ubArray");
 }
+
+using Clock = std::chrono::steady_clock;
+
+/// The last that is drawn: what comes after it is reading back.
+class Drawn : public osg::Drawable {
+ public:
+  Drawn() { setCullingActive(false), getOrCreateStateSet()->setRenderBinDetails(1000, "RenderBin"); }
+  void drawImplementation(osg::RenderInfo&) const override { glFinish(), at = Clock::now(); }
+  mutable Clock::time_point at;
+};
 
 void set(osg::Vec2Array& array, const std::vector<Vec2>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) array[i].set(values[i].x, values[i].y);
@@ -192,6 +203,7 @@ const OsgRadiosity::Target& OsgRadiosity::target(int width, int height) {
   state->setMode(GL_DEPTH_TEST, off);
   state->addUniform(new osg::Uniform("sconce_in_faces", 1.0f));
   t.camera->addChild(&scene_node_);
+  t.camera->addChild(t.drawn = new Drawn);
   return t;
 }
 
@@ -212,5 +224,7 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
   const auto* rgba = reinterpret_cast<const float*>(t.image->data());
   for (std::size_t i = 0; i < request.pixels(); ++i)
     drawing.values.insert(drawing.values.end(), rgba + 4 * i, rgba + 4 * i + 3);
+  const auto drawn = static_cast<const Drawn&>(*t.drawn).at;
+  drawing.read_milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - drawn).count();
   return drawing;
 }

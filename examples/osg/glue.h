@@ -22,6 +22,8 @@ class OsgRadiosity {
 
   /// Reads the direct light and brings the ambient map up to date.
   sconce::FrameReport update();
+  /// Looks at the materials again, after the program changed them. @throws sconce::Error: the old ones stay
+  void detect() { map_->detect(); }
   const sconce::Detection& detection() const { return map_->detection(); }
   osg::Texture2D* ambient_map() { return ambient_map_; }
 
@@ -33,6 +35,7 @@ class OsgRadiosity {
   struct Target {
     osg::ref_ptr<osg::Camera> camera;
     osg::ref_ptr<osg::Image> image;
+    osg::ref_ptr<osg::Drawable> drawn;  ///< tells when all is
   };
   class Collector;
 

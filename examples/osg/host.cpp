@@ -88,6 +88,12 @@ class Program {
     room::print(radiosity.update());
     picture("changed", true);
     picture("changed-direct", false);
+    // And has its walls painted.
+    scene_->getChild(room::kRepainted)->getStateSet()->getUniform("color")->set(vec(room::kNewColor));
+    radiosity.detect();
+    room::print(radiosity.update());
+    picture("painted", true);
+    picture("painted-direct", false);
   }
 
  private:

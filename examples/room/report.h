@@ -26,8 +26,8 @@ inline void print(const sconce::Detection& found) {
 
 inline void print(const sconce::FrameReport& frame) {
   if (!frame) fmt::print("without global illumination: {}\n", frame.fault);
-  fmt::print("frame: {:.1f} ms in the renderer, {:.1f} ms to solve\n", frame.capture.milliseconds,
-             frame.solve_milliseconds);
+  fmt::print("frame: {:.1f} ms in the renderer, {:.2f} of them to read back, {:.1f} ms to solve\n",
+             frame.capture.milliseconds, frame.capture.read_milliseconds, frame.solve_milliseconds);
 }
 
 /// FILE.exr as it is, and FILE.png in sRGB.

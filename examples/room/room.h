@@ -21,6 +21,10 @@ inline constexpr std::array<Paint, 7> kPaints{{{"floor", {0.45f, 0.36f, 0.28f}, 
                                                {"lacquer", {0.2f, 0.3f, 0.6f}, {}},
                                                {"panel", {0.1f, 0.1f, 0.1f}, {1.2f, 0.9f, 0.5f}}}};
 
+/// What it is painted with while the program runs.
+inline constexpr std::size_t kRepainted = 1;
+inline constexpr Triple kNewColor{0.2f, 0.45f, 0.7f};
+
 /// A rectangle; its front is the side of cross(a, b).
 struct Wall {
   std::size_t paint;

@@ -92,7 +92,8 @@ export class ThreeRadiosity {
   }
 
   /** Reads the direct light and brings the ambient map up to date.
-      @returns {fault, drawn, solved}  one line, or '': then the map is black; milliseconds in the page, in sconce */
+      @returns {fault, drawn, read, solved}  one line, or '': then the map is black; milliseconds in the page, of them reading back, in
+      sconce */
   async update() {
     let frame;
     try {

@@ -21,10 +21,18 @@ Json room_as_json(bool shiny) {
   for (const room::Wall& w : room::walls())
     walls.push_back({{"paint", w.paint}, {"corner", w.corner}, {"a", w.a}, {"b", w.b}});
   const room::Lamp lamp;
-  return {{"paints", paints},         {"walls", walls},          {"shine", shiny ? 0.3 : 0.0},
-          {"eye", room::kEye},        {"target", room::kTarget}, {"fov", room::kFieldOfView},
-          {"width", room::kWidth},    {"height", room::kHeight}, {"lamp", lamp.position},
-          {"strength", lamp.strength}};
+  return {{"paints", paints},
+          {"walls", walls},
+          {"shine", shiny ? 0.3 : 0.0},
+          {"eye", room::kEye},
+          {"target", room::kTarget},
+          {"fov", room::kFieldOfView},
+          {"width", room::kWidth},
+          {"height", room::kHeight},
+          {"lamp", lamp.position},
+          {"strength", lamp.strength},
+          {"repainted", room::kRepainted},
+          {"new_color", room::kNewColor}};
 }
 
 int run(const std::string& out, bool shiny) {

@@ -60,14 +60,17 @@ async function pictures() {
   await post('without');
   const radiosity = await ThreeRadiosity.start(renderer, scene, camera);
   await post('direct');
-  for (const name of ['with', 'changed']) {
+  for (const name of ['with', 'changed', 'painted']) {
     const { fault } = await radiosity.update();
     if (fault) throw new Error(fault);
     show(true);
     await post(name);
     if (name === 'with') attenuate();
     show(false);
-    if (name === 'changed') await post('changed-direct');
+    if (name !== 'with') await post(`${name}-direct`);
+    if (name !== 'changed') continue;
+    materials[room.repainted].color.setRGB(...room.new_color);
+    await radiosity.detect();
   }
   await fetch('done', { method: 'POST' });
 }
@@ -92,8 +95,8 @@ async function demo() {
   Object.assign(window, { radiosity, renderer, scene, camera, lamp, materials });
   document.documentElement.dataset.state = 'ready';
   for (;;) {
-    const { fault, drawn, solved } = await radiosity.update();
-    status.textContent = fault ? `without bounces: ${fault}` : `${drawn.toFixed(1)} ms drawn and read, ${solved.toFixed(1)} ms solved`;
+    const { fault, drawn, read, solved } = await radiosity.update();
+    status.textContent = fault ? `without bounces: ${fault}` : `${drawn.toFixed(1)} ms drawn and read (${read.toFixed(1)} ms), ${solved.toFixed(1)} ms solved`;
     await new Promise(requestAnimationFrame);
   }
 }

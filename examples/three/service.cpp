@@ -153,6 +153,7 @@ class GiService::Session {
     Message message{{{"kind", "frame"},
                      {"fault", report.fault},
                      {"drawn", report.capture.milliseconds},
+                     {"read", report.capture.read_milliseconds},
                      {"solved", report.solve_milliseconds}},
                     {}};
     for (const Rgb& c : map_.texels()) message.floats.insert(message.floats.end(), {c.r, c.g, c.b, 1});

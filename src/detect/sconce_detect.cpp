@@ -83,6 +83,15 @@ struct HostGeometry {
   }
 };
 
+sconce_lobe in_c(const Lobe& lobe) {
+  return {lobe.halfway ? SCONCE_LOBE_BLINN : SCONCE_LOBE_PHONG,
+          {lobe.diffuse.r, lobe.diffuse.g, lobe.diffuse.b},
+          {lobe.strength.r, lobe.strength.g, lobe.strength.b},
+          lobe.exponent,
+          lobe.roughness(),
+          lobe.residual};
+}
+
 }  // namespace
 
 struct sconce_gi {
@@ -100,6 +109,7 @@ struct sconce_gi {
     if (p.by_face < 0 || p.by_face > 2) throw Error("by_face", std::to_string(p.by_face), "0, 1, 2");
     detect_params.per = static_cast<DetectParams::Per>(p.by_face);
     detect_params.texel = texel;
+    detect_params.lobes = p.lobes != 0;
     detection = detect_materials(geometry.scene, world, host, detect_params);
     TransferParams params;
     params.gather = p.samples > 0 ? static_cast<std::size_t>(p.samples) : 16384;
@@ -127,6 +137,8 @@ struct sconce_gi {
       for (const Vec2& corner : r.corners[i]) corners.push_back(corner.x), corners.push_back(corner.y);
     }
     const Vec3& to = r.probe.to_light;
+    Drawing drawing;
+    drawing.width = r.width, drawing.height = r.height;
     const sconce_draw_request request{static_cast<int>(r.lights),
                                       {to.x, to.y, to.z},
                                       r.probe.intensity,
@@ -137,9 +149,8 @@ struct sconce_gi {
                                       r.height,
                                       faces.size(),
                                       faces.data(),
-                                      corners.data()};
-    Drawing drawing;
-    drawing.width = r.width, drawing.height = r.height;
+                                      corners.data(),
+                                      &drawing.read_milliseconds};
     const std::size_t size = 3 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
     void* pixels = nullptr;
     if (host.format == TargetFormat::linear)
@@ -189,7 +200,8 @@ void sconce_gi_material(const sconce_gi* gi, size_t material, sconce_material* o
           {r.reflectance.r, r.reflectance.g, r.reflectance.b},
           m.faces,
           m.residual,
-          m.lambertian ? 1 : 0};
+          m.lambertian ? 1 : 0,
+          m.lobe ? in_c(*m.lobe) : sconce_lobe{}};
 }
 
 int sconce_gi_detect(sconce_gi* gi, char* message, size_t message_size) {
@@ -228,7 +240,11 @@ int sconce_gi_move(sconce_gi* gi, const float* positions, const float* normals, 
 int sconce_gi_update(sconce_gi* gi, float* ambient, sconce_frame* frame, char* message, size_t message_size) {
   const FrameReport report = gi->radiosity->update(gi->budget);
   if (frame != nullptr)
-    *frame = {report.capture.milliseconds, report.solve_milliseconds, report.following ? 1 : 0, report.coarse,
+    *frame = {report.capture.milliseconds,
+              report.capture.read_milliseconds,
+              report.solve_milliseconds,
+              report.following ? 1 : 0,
+              report.coarse,
               report.clipped};
   std::fill(ambient, ambient + 3 * gi->vertex_count, 0.0f);
   const std::span<const Rgb> light = gi->radiosity->ambient();

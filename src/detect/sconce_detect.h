@@ -30,17 +30,18 @@ enum { SCONCE_TARGET_LINEAR, SCONCE_TARGET_SRGB8, SCONCE_TARGET_POWER8 };
 
 /* One drawing of faces into a texture; detect/host.h says the same in C++. */
 typedef struct sconce_draw_request {
-  int lights;              /* none; the probe alone, without shadows; all of the scene, with theirs */
-  float probe_to_light[3]; /* unit: the probe's light is parallel */
-  float probe_intensity;   /* x what the renderer calls 1 */
-  float eye[3];            /* where shaders find the camera; not with all lights */
-  int white_card;          /* 1: draw a diffuse material of reflectance 1 instead of the faces' own */
-  float background;        /* clear to this grey first, linear */
-  int width, height;       /* pixels */
-  size_t count;            /* faces to draw */
-  const uint32_t* faces;   /* their triangles */
-  const float* corners;    /* 6 per face: x, y of its corners, in pixels from the first row's first corner;
-                            * counter-clockwise where rows go up, clockwise where the face's back is asked for */
+  int lights;                /* none; the probe alone, without shadows; all of the scene, with theirs */
+  float probe_to_light[3];   /* unit: the probe's light is parallel */
+  float probe_intensity;     /* x what the renderer calls 1 */
+  float eye[3];              /* where shaders find the camera; not with all lights */
+  int white_card;            /* 1: draw a diffuse material of reflectance 1 instead of the faces' own */
+  float background;          /* clear to this grey first, linear */
+  int width, height;         /* pixels */
+  size_t count;              /* faces to draw */
+  const uint32_t* faces;     /* their triangles */
+  const float* corners;      /* 6 per face: x, y of its corners, in pixels from the first row's first corner;
+                              * counter-clockwise where rows go up, clockwise where the face's back is asked for */
+  double* read_milliseconds; /* may be set: what of the function's time reading back took */
 } sconce_draw_request;
 
 /* Fills width x height x RGB floats (linear) or bytes (the other targets). Returns 0, or another number where
@@ -55,17 +56,31 @@ typedef struct sconce_gi_params {
   float milliseconds; /* of solving per frame, the rest follows while light rests; 0: all at once */
   float texel;        /* m, of direct light; 0: a 256th of the scene's size */
   int movable;        /* 1: sconce_gi_move() may be called; what is needed for it is kept */
+  int lobes;          /* 1: materials that are not Lambertian get a lobe fitted */
 } sconce_gi_params;
+
+enum { SCONCE_LOBE_NONE, SCONCE_LOBE_PHONG, SCONCE_LOBE_BLINN };
+
+/* Diffuse reflectance x cosine + strength x cos(angle)^exponent, both times what a white card that faces the
+ * light shows; detect/lobe.h. */
+typedef struct sconce_lobe {
+  int kind;
+  float diffuse[3], strength[3], exponent;
+  float roughness; /* as the width of a microfacet distribution */
+  float residual;  /* under lights and eyes that were not fitted to, share of a white card's light */
+} sconce_lobe;
 
 typedef struct sconce_material {
   float emission[3], transmission[3], reflectance[3]; /* linear */
   size_t faces;                                       /* that were looked at; 0: nothing is known */
-  float residual; /* under held-out lights, share of a white card's light */
-  int lambertian; /* 0: it is not, and its reflection is wrong by the residual */
+  float residual;   /* under held-out lights, share of a white card's light */
+  int lambertian;   /* 0: it is not, and its reflection is wrong by the residual */
+  sconce_lobe lobe; /* where lobes were asked for and it is not */
 } sconce_material;
 
 typedef struct sconce_frame {
   double capture_milliseconds; /* in the renderer, reading back included */
+  double read_milliseconds;    /* of them reading back, as far as the renderer tells */
   double solve_milliseconds;
   int following;  /* 1: things moved, and the light is still that of their old places */
   size_t coarse;  /* vertices whose light is right only in the mean of many, so far */

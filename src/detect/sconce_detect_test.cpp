@@ -40,6 +40,7 @@ struct CHost {
     request.corners = {reinterpret_cast<const std::array<Vec2, 3>*>(r->corners), r->count};
     const Drawing drawing = self.renderer.draw(request);
     std::copy(drawing.values.begin(), drawing.values.end(), static_cast<float*>(pixels));
+    *r->read_milliseconds = 0.25;
     return 0;
   }
 };
@@ -54,7 +55,7 @@ TEST(DetectInC, Furnace) {
   sconce_geometry geometry{
       &host.world.positions[0].x, &host.world.normals[0].x, host.world.positions.size(), indices.data(),
       materials.data(),           host.world.size()};
-  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0, 0.1f, 1};
+  const sconce_gi_params params{SCONCE_TARGET_LINEAR, 0, 1024, 64, 0, 0.1f, 1, 1};
   char message[256] = "";
   sconce_gi* gi = sconce_gi_create(&geometry, CHost::draw, &host, &params, message, sizeof message);
   ASSERT_NE(gi, nullptr) << message;
@@ -63,12 +64,27 @@ TEST(DetectInC, Furnace) {
   sconce_gi_material(gi, 1, &material);
   EXPECT_NEAR(material.reflectance[1], 0.5f, 1e-4f);
   EXPECT_EQ(material.lambertian, 1);
+  EXPECT_EQ(material.lobe.kind, SCONCE_LOBE_NONE);
 
   std::vector<float> ambient(3 * host.world.positions.size());
   sconce_frame frame{};
   EXPECT_EQ(sconce_gi_update(gi, ambient.data(), &frame, message, sizeof message), 0);
   for (const float light : ambient) EXPECT_NEAR(light, 1, 0.02f);
   EXPECT_GT(frame.solve_milliseconds, 0);
+  EXPECT_EQ(frame.read_milliseconds, 0.25);  // of one drawing
+
+  // Lacquered, its lobe is found again.
+  host.renderer.materials[1].specular = 0.3f, host.renderer.materials[1].shininess = 20;
+  EXPECT_EQ(sconce_gi_detect(gi, message, sizeof message), 0);
+  sconce_gi_material(gi, 1, &material);
+  EXPECT_EQ(material.lambertian, 0);
+  EXPECT_EQ(material.lobe.kind, SCONCE_LOBE_PHONG);
+  EXPECT_NEAR(material.lobe.exponent, 20, 0.2);
+  EXPECT_NEAR(material.lobe.strength[1], 0.3f, 1e-3f);
+  EXPECT_NEAR(material.lobe.diffuse[1], 0.5f, 1e-3f);
+  EXPECT_NEAR(material.lobe.roughness, std::sqrt(2.0f / 82), 1e-3f);
+  host.renderer.materials[1].specular = 0;
+  EXPECT_EQ(sconce_gi_detect(gi, message, sizeof message), 0);
 
   // A furnace stays one when its crate moves.
   std::vector<Vec3> places = host.world.positions;
