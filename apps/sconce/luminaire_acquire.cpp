@@ -28,12 +28,15 @@ void write_preview(const std::filesystem::path& file, const Acquired& acquired) 
       for (int t = 0; t < field.height; ++t)
         for (int s = 0; s < field.width; ++s) {
           const auto term = static_cast<std::size_t>(n * field.columns + m);
-          const float v = field.image(term)[static_cast<std::size_t>(t * field.width + s)] / most;
+          const std::size_t at = term * field.pixels() + static_cast<std::size_t>(t * field.width + s);
           const int x = m * (field.width + 1) + s, y = (field.rows - n) * (field.height + 1) - 2 - t;
           unsigned char* to = &out.data[3 * static_cast<std::size_t>(y * out.width + x)];
-          const auto code =
-              static_cast<unsigned char>(255 * linear_to_srgb(std::clamp(v, 0.0f, 1.0f)) + 0.5f);
-          to[0] = to[1] = code, to[2] = acquired.has(term) ? code : 120;
+          for (std::size_t c = 0; c < 3; ++c) {
+            const float v =
+                field.is_grey() ? field.irradiance[at] : field.color[c * field.irradiance.size() + at];
+            to[c] = static_cast<unsigned char>(255 * linear_to_srgb(std::clamp(v / most, 0.0f, 1.0f)) + 0.5f);
+          }
+          if (!acquired.has(term)) to[2] = 120;
         }
   write_png(file, out);
 }

@@ -51,14 +51,17 @@ bool coded(const std::string& file) {
 }
 
 /// Between pixel centres; held at the border.
-double bilinear(const Image& image, double x, double y) {
+glm::dvec3 bilinear(const Image& image, double x, double y) {
   const double fx = std::clamp(x - 0.5, 0.0, image.width - 1.0),
                fy = std::clamp(y - 0.5, 0.0, image.height - 1.0);
   const int x0 = std::min(static_cast<int>(fx), std::max(0, image.width - 2)),
             y0 = std::min(static_cast<int>(fy), std::max(0, image.height - 2));
   const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
   const double u = fx - x0, v = fy - y0;
-  const auto at = [&](int px, int py) { return static_cast<double>(image.at(px, py)[0]); };
+  const auto at = [&](int px, int py) {
+    const Rgb v = image.rgb_at(px, py);
+    return glm::dvec3(v.r, v.g, v.b);
+  };
   return (1 - v) * ((1 - u) * at(x0, y0) + u * at(x1, y0)) + v * ((1 - u) * at(x0, y1) + u * at(x1, y1));
 }
 
@@ -70,11 +73,7 @@ Acquired::Acquired(std::filesystem::path folder, Acquisition acquisition)
       field_(acquisition_.grid),
       done_(field_.terms()) {
   field_.irradiance.assign(field_.terms() * field_.pixels(), 0.0f);
-  if (acquisition_.dark.empty()) return;
-  const Image dark = read_image(folder_ / acquisition_.dark);
-  dark_ = Image(dark.width, dark.height, {"Y"});
-  for (int y = 0; y < dark.height; ++y)
-    for (int x = 0; x < dark.width; ++x) dark_.at(x, y)[0] = luminance(dark.rgb_at(x, y));
+  if (!acquisition_.dark.empty()) dark_ = read_image(folder_ / acquisition_.dark);
 }
 
 std::vector<std::string> Acquired::files_of(int m, int n) const {
@@ -109,17 +108,30 @@ std::size_t Acquired::update() {
             return std::filesystem::exists(folder_ / file);
           }))
         continue;
-      std::vector<float> lux = rectified(acquisition_.name, m, n);
+      std::vector<Rgb> lux = rectified(acquisition_.name, m, n);
       if (!acquisition_.negative.empty()) {
-        const std::vector<float> less = rectified(acquisition_.negative, m, n);
+        const std::vector<Rgb> less = rectified(acquisition_.negative, m, n);
         for (std::size_t i = 0; i < lux.size(); ++i) lux[i] -= less[i];
       }
-      std::copy(lux.begin(), lux.end(),
-                field_.irradiance.begin() + static_cast<std::ptrdiff_t>(term * field_.pixels()));
+      set_term(term, lux);
       done_[term] = 1;
       ++read;
     }
   return read;
+}
+
+void Acquired::set_term(std::size_t term, std::span<const Rgb> lux) {
+  std::vector<float>&all = field_.irradiance, &color = field_.color;
+  const bool grey =
+      std::all_of(lux.begin(), lux.end(), [](const Rgb& v) { return v.r == v.g && v.g == v.b; });
+  if (color.empty() && !grey && acquisition_.color)  // those before it were grey
+    for (int c = 0; c < 3; ++c) color.insert(color.end(), all.begin(), all.end());
+  for (std::size_t i = 0; i < lux.size(); ++i) {
+    const std::size_t at = term * field_.pixels() + i;
+    all[at] = luminance(lux[i]);
+    if (color.empty()) continue;
+    color[at] = lux[i].r, color[all.size() + at] = lux[i].g, color[2 * all.size() + at] = lux[i].b;
+  }
 }
 
 Image Acquired::merged(const std::string& pattern, int m, int n) const {
@@ -132,7 +144,7 @@ Image Acquired::merged(const std::string& pattern, int m, int n) const {
     const Image picture = read_image(folder_ / file);
     if (picture.stride() < 3) throw Error(where, "has no R, G and B");
     if (e == 0) {
-      out = Image(picture.width, picture.height, {"Y"});
+      out = Image::rgb(picture.width, picture.height);
       weights.assign(out.pixels(), 0.0f);
     }
     const bool same = picture.width == out.width && picture.height == out.height &&
@@ -162,17 +174,19 @@ Image Acquired::merged(const std::string& pattern, int m, int n) const {
       if (!(most < top) || !std::isfinite(value.r + value.g + value.b)) continue;  // saturated
       // Longer exposures know dark pixels better; codes near either end know little.
       const float weight = codes ? seconds * (most * (1 - most) + 1e-4f) : seconds;
-      const float dark = dark_.width > 0 ? dark_.at(x, y)[0] : 0;
-      out.at(x, y)[0] += weight * (luminance(value) - dark) / seconds;
+      if (dark_.width > 0) value -= dark_.rgb_at(x, y);
+      const Rgb& white = acquisition_.white;
+      value = Rgb(value.r / white.r, value.g / white.g, value.b / white.b);
+      out.set_rgb(x, y, out.rgb_at(x, y) + value * (weight / seconds));
       weights[i] += weight;
     }
   }
-  for (std::size_t i = 0; i < out.pixels(); ++i)
-    out.data[i] = weights[i] > 0 ? out.data[i] / weights[i] : std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < out.data.size(); ++i)
+    out.data[i] = weights[i / 3] > 0 ? out.data[i] / weights[i / 3] : std::numeric_limits<float>::quiet_NaN();
   return out;
 }
 
-std::vector<float> Acquired::rectified(const std::string& pattern, int m, int n) {
+std::vector<Rgb> Acquired::rectified(const std::string& pattern, int m, int n) {
   const Image picture = merged(pattern, m, n);
   const std::string where = (folder_ / named(pattern, m, n, 0)).string();
   if (width_ == 0) {
@@ -193,28 +207,32 @@ std::vector<float> Acquired::rectified(const std::string& pattern, int m, int n)
     longest = std::max(longest, glm::length(acquisition_.corners[i] - acquisition_.corners[(i + 1) % 4]));
   const int points =
       std::clamp(static_cast<int>(std::ceil(2 * longest / std::min(field_.width, field_.height))), 2, 32);
-  std::vector<float> out(field_.pixels());
+  std::vector<Rgb> out(field_.pixels());
   parallel_for(static_cast<std::size_t>(field_.height), 1, [&](std::size_t t) {
     for (int s = 0; s < field_.width; ++s) {
-      double sum = 0;
+      glm::dvec3 sum(0);
       for (int j = 0; j < points; ++j)
         for (int i = 0; i < points; ++i) {
           const glm::dvec2 p = at((s + (i + 0.5) / points) / field_.width,
                                   (static_cast<double>(t) + (j + 0.5) / points) / field_.height);
           sum += bilinear(picture, p.x, p.y);
         }
+      sum *= acquisition_.lux / (points * points);
       out[t * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(s)] =
-          static_cast<float>(acquisition_.lux * sum / (points * points));
+          Rgb(static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z));
     }
   });
-  const auto saturated = std::count_if(out.begin(), out.end(), [](float v) { return !std::isfinite(v); });
+  const auto saturated =
+      std::count_if(out.begin(), out.end(), [](const Rgb& v) { return !std::isfinite(v.r + v.g + v.b); });
   if (saturated > 0)
     throw Error(where, fmt::format("is saturated in {} of {} pixels of the screen", saturated, out.size()),
                 "an exposure short enough for the brightest spot");
-  // Of the picture itself, before means hide them.
+  // Of the picture itself, before means hide them; its luminance, as a pure colour may lie outside of RGB.
   double light = 0, negative = 0;
-  for (const float v : picture.data)
-    if (std::isfinite(v)) (v < 0 ? negative : light) += std::abs(static_cast<double>(v));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (const auto v = static_cast<double>(luminance(picture.rgb_at(x, y))); std::isfinite(v))
+        (v < 0 ? negative : light) += std::abs(v);
   if (negative > kMostNegative * light)
     throw Error(
         where,

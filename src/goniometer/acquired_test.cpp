@@ -55,26 +55,26 @@ std::string settings(const std::string& more_camera = "",
 }
 
 /// @param scale  of values; clipped at `top`
-Image photograph(int m, int n, bool negative, double scale, double top) {
+Image photograph(int m, int n, bool negative, double scale, double top, const Rgb& tint = Rgb(1)) {
   Image out = Image::rgb(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       const glm::dvec2 p = on_screen(x + 0.5, y + 0.5);
       out.set_rgb(x, y,
-                  Rgb(static_cast<float>(std::min(top, scale * pattern(m, n, p.x, p.y, negative) / kLux))));
+                  tint * static_cast<float>(std::min(top, scale * pattern(m, n, p.x, p.y, negative) / kLux)));
     }
   return out;
 }
 
 class Acquire : public testing::Test {
  protected:
-  void take(bool with_negative) {
+  void take(bool with_negative, const Rgb& tint = Rgb(1)) {
     for (int n = 0; n < kRows; ++n)
       for (int m = 0; m < kColumns; ++m) {
-        write_exr(folder_ / fmt::format("p{}_{}.exr", m, n), photograph(m, n, false, 1, 1e9),
+        write_exr(folder_ / fmt::format("p{}_{}.exr", m, n), photograph(m, n, false, 1, 1e9, tint),
                   PixelType::full);
         if (with_negative)
-          write_exr(folder_ / fmt::format("n{}_{}.exr", m, n), photograph(m, n, true, 1, 1e9),
+          write_exr(folder_ / fmt::format("n{}_{}.exr", m, n), photograph(m, n, true, 1, 1e9, tint),
                     PixelType::full);
       }
   }
@@ -131,6 +131,44 @@ TEST_F(Acquire, HdrPhotographsOfAKnownField) {
   Acquired both = acquire(settings("", "name = \"p{m}_{n}.exr\"\nnegative = \"n{m}_{n}.exr\""));
   both.update();
   expect_known(both.field(), true, 0.01);
+}
+
+// A lamp's colour is its light field's, the negative part taken off channel by channel; told what white looks
+// like, pictures of it are white; without colours the luminance is left. The first pictures may be grey.
+TEST_F(Acquire, ColoursOfPhotographs) {
+  const std::string both = "name = \"p{m}_{n}.exr\"\nnegative = \"n{m}_{n}.exr\"";
+  take(true);
+  Acquired plain = acquire(settings("", both));
+  plain.update();
+  const LightField grey = plain.field();
+  EXPECT_TRUE(grey.is_grey());
+  const Rgb tint(1.5f, 1, 0.25f);
+  const float white = luminance(tint);
+  take(true, tint);
+  for (const char* sign : {"p", "n"})
+    write_exr(folder_ / fmt::format("{}0_0.exr", sign), photograph(0, 0, sign[0] == 'n', 1, 1e9),
+              PixelType::full);
+  const auto expect = [&](const std::string& camera, const Rgb& first, const Rgb& others, bool colored) {
+    Acquired acquired = acquire(settings(camera, both));
+    acquired.update();
+    const LightField& field = acquired.field();
+    ASSERT_EQ(field.is_grey(), !colored);
+    for (std::size_t i = 0; i < field.irradiance.size(); ++i) {
+      const Rgb want = (i < field.pixels() ? first : others) * grey.irradiance[i];
+      const double allowed = 1e-5 * (1 + std::abs(static_cast<double>(grey.irradiance[i])));
+      ASSERT_NEAR(field.irradiance[i], luminance(want), allowed);
+      if (!colored) continue;
+      ASSERT_NEAR(field.color[i], want.r, allowed);
+      ASSERT_NEAR(field.color[field.irradiance.size() + i], want.g, allowed);
+      ASSERT_NEAR(field.color[2 * field.irradiance.size() + i], want.b, allowed);
+    }
+  };
+  expect("", Rgb(1), tint, true);
+  expect("color = false", Rgb(1), Rgb(white), false);
+  const Rgb turned(white / tint.r, white / tint.g, white / tint.b);
+  expect("white = [1.5, 1, 0.25]", turned, Rgb(white), true);
+  EXPECT_NE(error(settings("white = [1, 0, 1]", both)).find("[camera] white: is not positive"),
+            std::string::npos);
 }
 
 // Three exposures of 8 bit by gamma 2.2; the longest is saturated in the blobs, the shortest knows nothing of

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rgb.h"
 #include "image/image.h"
 #include "photometry/light_field.h"
 
@@ -20,9 +21,11 @@ struct Acquisition {
   LightField grid;  ///< everything but the irradiance
 
   std::array<glm::dvec2, 4>
-      corners;       ///< pictures' pixels where M's corners lie: least x and y, then round counter-clockwise
-  double lux = 1;    ///< on the screen per picture value (of one second, where exposures are given)
-  double gamma = 0;  ///< of 8- and 16-bit codes: value = code^gamma; 0 = the sRGB curve
+      corners;        ///< pictures' pixels where M's corners lie: least x and y, then round counter-clockwise
+  double lux = 1;     ///< on the screen per picture value (of one second, where exposures are given)
+  double gamma = 0;   ///< of 8- and 16-bit codes: value = code^gamma; 0 = the sRGB curve
+  bool color = true;  ///< pictures' colours are the light field's, where they have any; else luminance
+  Rgb white{1};       ///< channels' shares of what is to be white, of luminance 1
   double saturation = 0;  ///< picture values (codes where 8-bit) from here on are saturated; 0 = not known
 
   std::string name;               ///< file, {m} = column, {n} = row, {e} = exposure, from 0 on
@@ -54,8 +57,9 @@ class Acquired {
 
  private:
   /// The pattern of one position in lux, down-sampled to M's pixels.
-  std::vector<float> rectified(const std::string& pattern, int m, int n);
-  /// Merged exposures: picture values per second; saturated in all = NaN.
+  std::vector<Rgb> rectified(const std::string& pattern, int m, int n);
+  void set_term(std::size_t term, std::span<const Rgb> lux);
+  /// Merged exposures: picture values per second, RGB; saturated in all = NaN.
   Image merged(const std::string& pattern, int m, int n) const;
   std::vector<std::string> files_of(int m, int n) const;
 

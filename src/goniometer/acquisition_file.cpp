@@ -105,6 +105,15 @@ void read_camera(const SideTable& table, const SideNode& node, Acquisition& out)
   else if (response && *response == "linear")
     out.gamma = 1;
   if (const auto gamma = table.positive("gamma")) out.gamma = *gamma;
+  out.color = table.flag("color").value_or(true);
+  if (table.has("white")) {
+    const SideNode::Array& white = array_of(table, node, "white", 3);
+    float* to[] = {&out.white.r, &out.white.g, &out.white.b};
+    for (std::size_t i = 0; i < 3; ++i) *to[i] = static_cast<float>(number_in(table, white[i], "white"));
+    if (!(std::min({out.white.r, out.white.g, out.white.b}) > 0))
+      table.fail("white", "is not positive", "what pictures show of white, [r, g, b] > 0");
+    out.white *= 1 / luminance(out.white);
+  }
   out.saturation = table.positive("saturation").value_or(0);
   out.dark = table.text("dark").value_or("");
 }
@@ -143,9 +152,10 @@ Acquisition read_acquisition(const std::filesystem::path& file) {
                        {"distance", "width", "height", "pixels", "corner"}),
              out.grid);
   const SideNode &camera = part(root, file, "camera"), &pictures = part(root, file, "pictures");
-  read_camera(SideTable(where, "[camera]", camera,
-                        {"corners", "mirrored", "lux", "response", "gamma", "saturation", "dark"}),
-              camera, out);
+  read_camera(
+      SideTable(where, "[camera]", camera,
+                {"corners", "mirrored", "lux", "color", "white", "response", "gamma", "saturation", "dark"}),
+      camera, out);
   read_pictures(SideTable(where, "[pictures]", pictures, {"name", "negative", "exposures"}), pictures, out);
   return out;
 }

@@ -20,6 +20,7 @@ constexpr double kSpacings = 25;  // between the planes where nothing else is as
 struct Extent {
   Vec2 low{1e30f}, high{-1e30f};  ///< on the sampling plane, m
   float bottom = 1e30f;           ///< z of the sampling plane
+  bool colored = false;           ///< some of them
 };
 
 class FieldRays {
@@ -34,6 +35,7 @@ class FieldRays {
       if (!within(r)) return;
       const Vec2 uv = Vec2(r.position) - Vec2(r.direction) * (r.position.z / r.direction.z);
       out.low = glm::min(out.low, uv), out.high = glm::max(out.high, uv);
+      out.colored |= r.color != Rgb(1);
     });
     return out;
   }
@@ -88,19 +90,20 @@ MeasuredField measure_field(const RaySource& source, const FieldParams& params, 
   const Vec2 size = extent.high - extent.low;
   const glm::dvec2 filters = glm::dvec2(size) / params.spacing + kMargin;
   const double count = filters.x * filters.y, pixels = static_cast<double>(params.pixels) * params.pixels,
-               gigabytes = 12e-9 * count * pixels;
+               gigabytes = (extent.colored ? 40e-9 : 12e-9) * count * pixels;
   if (gigabytes > kMostGigabytes)
-    throw UsageError("--spacing",
-                     fmt::format("makes some {:.0f} filters of {} x {} pixels, {:.1f} GB", count,
-                                 params.pixels, params.pixels, gigabytes),
-                     "at most 2 GB; a wider spacing, a smaller --angle or fewer --pixels");
+    throw UsageError(
+        "--spacing",
+        fmt::format("makes some {:.0f} filters of {} x {} pixels{}, {:.1f} GB", count, params.pixels,
+                    params.pixels, extent.colored ? " in colours" : "", gigabytes),
+        "at most 2 GB; a wider spacing, a smaller --angle or fewer --pixels");
   LightField empty = make_light_field(
       params.basis, extent.low, extent.high, params.spacing, distance,
       0.5 * static_cast<double>(std::max(size.x, size.y)) + distance * tangent, params.pixels);
   MeasuredField out;
   out.plane = static_cast<double>(extent.bottom);
   if (params.lumens > 0) out.scale = params.lumens / rays.flux();
-  LightFieldBuilder builder(std::move(empty));
+  LightFieldBuilder builder(std::move(empty), extent.colored);
   rays.project(builder, extent.bottom, static_cast<float>(out.scale));
   out.kept = builder.kept(), out.lost = builder.lost();
   out.field = std::move(builder).finish();

@@ -39,7 +39,7 @@ class BenchTracer {
       const auto [hit, passed] =
           tracer_.follow({start, direction}, [&] { return pair(kPanePair - depth).x; });
       flux *= passed, kept *= passed.max();
-      if (!hit) return hanging(start, direction, luminance(flux));
+      if (!hit) return hanging(start, direction, flux);
       if (hit.back && !scene_[world_.materials[hit.triangle]].double_sided) break;
       const SurfacePoint at = surface_point(world_, hit);
       const Shade surface = shade(scene_, world_, hit.triangle, hit.barycentric);
@@ -57,12 +57,15 @@ class BenchTracer {
       }
       start = offset_origin(at.position, at.geometric_normal, at.geometric_normal);
     }
-    return hanging(start, direction, 0);
+    return hanging(start, direction, Rgb(0));
   }
 
  private:
-  static SourceRay hanging(const Vec3& p, const Vec3& d, float flux) {
-    return {Vec3(p.x, -p.z, p.y), glm::normalize(Vec3(d.x, -d.z, d.y)), flux};
+  static SourceRay hanging(const Vec3& p, const Vec3& d, const Rgb& flux) {
+    const float lumens = luminance(flux);
+    const bool grey = flux.r == flux.g && flux.g == flux.b;
+    return {Vec3(p.x, -p.z, p.y), glm::normalize(Vec3(d.x, -d.z, d.y)), lumens,
+            grey || !(lumens > 0) ? Rgb(1) : flux / lumens};
   }
 
   const Scene& scene_;

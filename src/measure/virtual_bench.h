@@ -18,9 +18,10 @@ struct BenchParams {
 };
 
 /// Rays of all lamps, reflected by the luminaire's other parts until they leave it: metals are mirrors about
-/// the interpolated normal, however rough; other surfaces are Lambertian. Flux is luminance-weighted, in lm;
-/// each lamp has rays in proportion to its flux. A ray starts where it was last reflected. The luminaire
-/// hangs in its scene: nadir is -y, C0 +x, C90 -z. The same bits at any number of threads.
+/// the interpolated normal, however rough; other surfaces are Lambertian. Flux is luminance-weighted, in lm,
+/// and what is coloured keeps its colour; each lamp has rays in proportion to its flux. A ray starts where it
+/// was last reflected. The luminaire hangs in its scene: nadir is -y, C0 +x, C90 -z. The same bits at any
+/// number of threads.
 /// @throws Error: no lamp, or one at infinity
 std::vector<SourceRay> trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer,
                                        const Lamps& lamps, const BenchParams& params,

@@ -81,6 +81,71 @@ TEST(VirtualBench, ColourCountsByLuminanceAndLampsByFlux) {
   EXPECT_NEAR(white_rays / static_cast<double>(rays.size()), 9 / 9.2126, 1e-3);
 }
 
+/// lm through the images of a channel.
+double flux_of(const LightField& field, std::size_t channel) {
+  double sum = 0;
+  for (std::size_t i = 0; i < field.irradiance.size(); ++i)
+    sum += static_cast<double>(field.color.at(channel * field.irradiance.size() + i));
+  return sum * field.pixel * field.pixel;
+}
+
+MeasuredField measured(const std::vector<SourceRay>& rays, NearBasis basis) {
+  FieldParams params;
+  params.basis = basis;
+  params.spacing = 0.1, params.pixels = 16;
+  return measure_field([&](const auto& f) { f(rays); }, params, "lamp");
+}
+
+// A Lambertian square that faces down sends sin2 60 = 3/4 of pi A L through the filters, in each channel;
+// every pixel has its colour.
+TEST(VirtualBench, ColouredEmittersMakeFieldsOfTheirColour) {
+  Scene scene;
+  const Rgb color(30, 20, 5);
+  add_quad(scene, "emitter", add_material(scene, "light", Rgb(0), color), Vec3(-0.1f, 0, -0.1f),
+           Vec3(0.2f, 0, 0), Vec3(0, 0, 0.2f));
+  const auto rays = trace(LampRig(scene), 1 << 18);
+  for (const NearBasis basis : {NearBasis::bell, NearBasis::spline}) {
+    const MeasuredField out = measured(rays, basis);
+    ASSERT_FALSE(out.field.is_grey());
+    const double sent = 0.75 * kPiD * 0.04;
+    std::size_t c = 0;
+    for (const float share : {color.r, color.g, color.b}) {
+      EXPECT_NEAR(flux_of(out.field, c) / (sent * static_cast<double>(share)), 1, 0.005);
+      for (std::size_t i = 0; i < out.field.irradiance.size(); ++i)
+        ASSERT_NEAR(out.field.color[c * out.field.irradiance.size() + i],
+                    out.field.irradiance[i] * share / luminance(color),
+                    1e-5 * std::abs(static_cast<double>(out.field.irradiance[i])) + 1e-6);
+      ++c;
+    }
+    EXPECT_NEAR(flux(out.field), out.kept, 1e-6 * out.kept);
+  }
+}
+
+// White light from a coloured mirror has the mirror's colour; where all is grey, so is the light field.
+TEST(VirtualBench, ReflectorsColourTheLight) {
+  const Rgb tints[] = {Rgb(0.9f, 0.5f, 0.2f), Rgb(0.5f)};
+  for (const Rgb& tint : tints) {
+    Scene scene = upward_emitter();
+    const Id<Material> mirror = add_material(scene, "mirror", tint);
+    scene.materials[mirror.value].metallic = 1;
+    add_quad(scene, "mirror", mirror, Vec3(-50, 3, -50), Vec3(100, 0, 0), Vec3(0, 0, 100));
+    const auto rays = trace(LampRig(scene));
+    ASSERT_FALSE(rays.empty());
+    for (const SourceRay& ray : rays) {
+      if (ray.position.z < 1) continue;  // past the mirror
+      ASSERT_NEAR(ray.color.r, tint.r / luminance(tint), 1e-5);
+      ASSERT_NEAR(ray.color.b, tint.b / luminance(tint), 1e-5);
+    }
+    FieldParams params;
+    params.spacing = 1, params.pixels = 8, params.angle = 45;
+    const LightField field = measure_field([&](const auto& f) { f(rays); }, params, "lamp").field;
+    EXPECT_EQ(field.is_grey(), tint == Rgb(0.5f));
+    if (field.is_grey()) continue;
+    EXPECT_NEAR(flux_of(field, 0) / flux_of(field, 1), 0.9 / 0.5, 1e-5);
+    EXPECT_NEAR(flux_of(field, 2) / flux_of(field, 1), 0.2 / 0.5, 1e-5);
+  }
+}
+
 TEST(VirtualBench, SameBitsAtAnyNumberOfThreads) {
   Scene scene = upward_emitter();
   add_quad(scene, "roof", add_material(scene, "grey", Rgb(0.6f)), Vec3(-5, 3, -5), Vec3(10, 0, 0),

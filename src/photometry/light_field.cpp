@@ -59,11 +59,14 @@ LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, 
   return out;
 }
 
-LightFieldBuilder::LightFieldBuilder(LightField empty)
-    : field_(std::move(empty)), sums_(field_.terms() * field_.pixels(), 0.0) {}
+LightFieldBuilder::LightFieldBuilder(LightField empty, bool colored)
+    : field_(std::move(empty)),
+      channels_(colored ? 3 : 1),
+      sums_(channels_ * field_.terms() * field_.pixels(), 0.0) {}
 
 void LightFieldBuilder::add(std::span<const SourceRay> rays) {
   const int margin = margin_of(field_.basis);
+  const std::size_t values = field_.terms() * field_.pixels();
   for (const SourceRay& ray : rays) {
     const auto flux = static_cast<double>(ray.flux);
     const glm::dvec3 p(ray.position), d(ray.direction);
@@ -96,7 +99,16 @@ void LightFieldBuilder::add(std::span<const SourceRay> rays) {
           continue;  // weight 0 at the reach itself
         const std::size_t term = static_cast<std::size_t>(n) * static_cast<std::size_t>(field_.columns) +
                                  static_cast<std::size_t>(m);
-        sums_[term * field_.pixels() + pixel] += flux * fx.weight[i] * fy.weight[j];
+        const double weighed = flux * fx.weight[i] * fy.weight[j];
+        double* sum = &sums_[term * field_.pixels() + pixel];
+        if (channels_ == 1) {
+          *sum += weighed;
+          continue;
+        }
+        for (const float share : {ray.color.r, ray.color.g, ray.color.b}) {
+          *sum += weighed * static_cast<double>(share);
+          sum += values;
+        }
       }
   }
 }
@@ -105,15 +117,17 @@ LightField LightFieldBuilder::finish() && {
   const std::size_t pixels = field_.pixels(), columns = static_cast<std::size_t>(field_.columns),
                     rows = static_cast<std::size_t>(field_.rows);
   if (field_.basis == NearBasis::spline) {
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      for (std::size_t n = 0; n < rows; ++n)
-        spline_dual(&sums_[n * columns * pixels + pixel], columns, pixels);
-      for (std::size_t m = 0; m < columns; ++m)
-        spline_dual(&sums_[m * pixels + pixel], rows, columns * pixels);
+    for (std::size_t i = 0; i < channels_ * pixels; ++i) {
+      double* first = &sums_[i / pixels * rows * columns * pixels + i % pixels];
+      for (std::size_t n = 0; n < rows; ++n) spline_dual(first + n * columns * pixels, columns, pixels);
+      for (std::size_t m = 0; m < columns; ++m) spline_dual(first + m * pixels, rows, columns * pixels);
     }
   }
   const double area = field_.pixel * field_.pixel;
-  for (std::size_t i = 0; i < sums_.size(); ++i) field_.irradiance[i] = static_cast<float>(sums_[i] / area);
+  std::vector<float>& out = channels_ == 1 ? field_.irradiance : field_.color;
+  out.resize(sums_.size());
+  for (std::size_t i = 0; i < sums_.size(); ++i) out[i] = static_cast<float>(sums_[i] / area);
+  if (channels_ > 1) set_luminance(field_);
   field_.grain = kept_ > 0 ? squares_ / kept_ : 0;
   return std::move(field_);
 }

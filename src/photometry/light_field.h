@@ -49,10 +49,11 @@ LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, 
 
 /// Gathers rays into a light field: L_mnkl = sum of flux x dual_mn(u, v) / pixel area, no geometric factor.
 /// Each ray meets M in one pixel and its filters sum to 1, so that the flux of the images is that of the
-/// rays.
+/// rays, of each channel.
 class LightFieldBuilder {
  public:
-  explicit LightFieldBuilder(LightField empty);
+  /// @param colored  rays have colours, and so has the light field
+  explicit LightFieldBuilder(LightField empty, bool colored = false);
 
   void add(std::span<const SourceRay> rays);
   /// Flux that went into the images, and what missed them: upward, outside of M, or outside of the filters'
@@ -63,7 +64,8 @@ class LightFieldBuilder {
 
  private:
   LightField field_;
-  std::vector<double> sums_;
+  std::size_t channels_;
+  std::vector<double> sums_;  ///< [channel] of LightField::irradiance
   double kept_ = 0, lost_ = 0, squares_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/progress.h"
+#include "core/rgb.h"
 #include "core/vec.h"
 #include "photometry/photometry.h"
 
@@ -19,6 +20,7 @@ struct SourceRay {
   Vec3 position;   ///< where it starts, metres, in the luminaire's frame
   Vec3 direction;  ///< unit
   float flux;      ///< as RayFile::luminous says
+  Rgb color{1};    ///< of luminance 1; white in ray files
 };
 
 struct RayFile {
