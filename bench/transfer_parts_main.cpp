@@ -126,6 +126,7 @@ class Parts {
     std::vector<std::vector<double>> have;
     std::vector<Rgb> out(op_.gather.rows);
     for (std::vector<Rgbx>& one : light) {
+      weigh(op_, one);
       haar_forward(one);
       multiply(op_.gather, one, out);
       have.push_back(over_boxes(boxes_, out));
@@ -177,6 +178,15 @@ class Parts {
   RelightReceivers receivers_;
 };
 
+/// b_d becomes (M + I) b_d, as it is.
+void all_bounces(const Operator& op, const FoldedBounces& folded, std::vector<Rgbx>& light) {
+  folded.apply(light);
+  haar_inverse(light);
+  for (std::size_t slot = 0; slot < light.size(); ++slot)
+    if (const float weight = op.albedo[slot][3]; weight > 0)
+      for (std::size_t c = 0; c < 3; ++c) light[slot][c] /= weight;
+}
+
 void fitted(Parts& parts, const Operator& op, bool by_paths) {
   const auto points = static_cast<int>(op.points_per_slot);
   const auto own = parts.start(op.slots(), points);
@@ -184,8 +194,7 @@ void fitted(Parts& parts, const Operator& op, bool by_paths) {
   const FoldedBounces folded(op);
   Lights by_operator = parts.direct(op);
   for (std::vector<Rgbx>& light : by_operator) {
-    folded.apply(light);
-    haar_inverse(light);
+    all_bounces(op, folded, light);
   }
   parts.gather_rays("without compression", *own, bounced, 512);
   parts.compressed("the operator", by_operator);
@@ -209,8 +218,7 @@ void chapter(Parts& parts, const Operator& op) {
   Lights by_operator = direct;
   const FoldedBounces folded(op);
   for (std::vector<Rgbx>& light : by_operator) {
-    folded.apply(light);
-    haar_inverse(light);
+    all_bounces(op, folded, light);
   }
   parts.gather_rays("F and K by rays", *own, bounced, 4096);
   parts.compressed("the operator", by_operator);

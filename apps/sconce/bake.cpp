@@ -157,7 +157,7 @@ void make_movable(const Request& request, const Options& options, RankSession& s
   job.resume = request.resume;
   const MadeOperator made = run_transfer_job(job, session, progress);
   if (!options.quiet && !options.json)
-    fmt::print("{}: {} texels, so that lamps may move\n", made.path.string(), made.op.gather.rows);
+    fmt::print("{}: {} texels, so that lamps may move\n", made.path.string(), made.operators.op.gather.rows);
 }
 
 int execute(const Request& request, const Options& options, RankSession& session, const Progress& progress) {

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "mix_options.h"
+#include "picture/gloss.h"
 #include "picture_options.h"
 #include "picture_output.h"
 #include "relight/package_operator.h"
@@ -36,8 +38,8 @@ struct Relit {
 };
 
 /// The camera and size of an operator for pixels are its own.
-void find_view(const Operator& op, const View& view, const PictureOptions& picture, const Progress& progress,
-               Relit& out) {
+void find_view(const Operator& op, const View& view, const PictureOptions& picture, bool lobes,
+               const Progress& progress, Relit& out) {
   if (op.kind == OperatorReceivers::texels) {
     out.camera = picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
     out.params = picture.params(out.camera);
@@ -48,9 +50,12 @@ void find_view(const Operator& op, const View& view, const PictureOptions& pictu
   out.camera.yfov = op.camera_yfov;
   out.params.width = op.width, out.params.height = op.height;
   out.params.samples = picture.samples;
-  // Its light is known where its pixels look, not where mirrors do.
-  if (!picture.no_reflections && view.scene().has_mirrors())
-    progress.warn("an operator for pixels shows no reflections: --no-reflections is silent");
+  if (picture.no_reflections) return;
+  if (lobes)
+    out.params.reflections = kReflections;
+  else if (view.scene().has_mirrors())
+    progress.warn(
+        "an operator for pixels that has no lobes shows no reflections: --no-reflections is silent");
 }
 
 }  // namespace
@@ -103,7 +108,6 @@ int run_relight(int argc, const char* const* argv) {
   picture.check();
   if (picture.tier != "auto") throw UsageError({}, "--tier is for 'sconce render'");
   device.name = picture.device;
-  device.reflections = !picture.no_reflections && !pixels;
   device.check();
   if (!(cull >= 0 && cull <= 1)) throw UsageError("option '--cull'", fmt::format("{}", cull), "0 to 1");
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
@@ -131,20 +135,24 @@ int run_relight(int argc, const char* const* argv) {
     const View& view = elsewhere ? elsewhere->view() : home;
     const Operator op =
         elsewhere ? elsewhere->transfer() : find_operator(package, pixels ? picture.camera : "");
+    const std::optional<Operator> lobes =
+        pixels && !picture.no_reflections ? find_lobes(package, op) : std::nullopt;
+    device.reflections = !picture.no_reflections && (!pixels || lobes);
     relit.groups = package.manifest().groups;
     relit.mix = settings.make(preset, relit.groups, progress);
     MixSpec lightmap = relit.mix;
     const bool texels = op.kind == OperatorReceivers::texels;
     const Lamps own(view.scene(), view.world());
     const RelitLamps lit = place_lamps(wanted, view.scene(), own, !texels, lightmap, progress);
-    find_view(op, view, picture, progress, relit);
+    find_view(op, view, picture, lobes.has_value(), progress, relit);
     progress.check();
     const auto lamps_at = [&](const MoreLights& more, std::span<const MovedGroup> of,
                               std::span<const LampMove> by) {
       return MovedLamps(view.scene(), view.world(), view.tracer(), more, of, by);
     };
     const MovedLamps lamps = lamps_at(lit.more, lit.shining, lit.moves);
-    RelightJob job{package, view, op, lamps, lit.shaders, nullptr, static_cast<float>(cull)};
+    RelightJob job{
+        package, view, op, lamps, lit.shaders, nullptr, static_cast<float>(cull), lobes ? &*lobes : nullptr};
     std::vector<Image> pages = mix_pages(package, lightmap), components;
     if (elsewhere)
       elsewhere->add_to(pages, lightmap);

@@ -23,7 +23,7 @@ class CpuRelightStage : public RelightStage {
   CpuRelightStage(const RelightJob& job, const FoldedBounces& bounces)
       : view_(job.view),
         lamps_(job.lamps),
-        relighter_(job.package, job.view, job.op, bounces, job.lamps, job.cull) {}
+        relighter_(job.package, job.view, job.op, bounces, job.lamps, job.cull, job.lobes) {}
   std::string device() const override { return "cpu"; }
   Relighter::Seconds seconds() const override { return relighter_.seconds(); }
   Culling::Report culled() const override {
@@ -41,7 +41,8 @@ class CpuRelightStage : public RelightStage {
     return view_.render(
         camera, mix, pages, params, progress, nullptr, relighter_.added(), components,
         [&](const Shade& surface, const Vec3& to_eye, const SurfacePoint& at, uint32_t stream,
-            uint32_t index) { return lamps_.glints(mix, surface, to_eye, at, stream, index); });
+            uint32_t index) { return lamps_.glints(mix, surface, to_eye, at, stream, index); },
+        relighter_.mirrored());
   }
 
  private:

@@ -18,6 +18,7 @@ struct RelightJob {
   std::vector<gpu::LampShader> shaders;          ///< these need OpenGL
   std::shared_ptr<const FoldedBounces> bounces;  ///< of the operator; made where null and needed
   float cull = 0;                                ///< of Relighter: on the processor
+  const Operator* lobes = nullptr;               ///< find_lobes(): on the processor
 };
 
 /// For OpenGL.

@@ -44,7 +44,7 @@ void use_chapter(const Options& options, const std::string& choice, TransferPara
 /// @return exit code when nothing is left to do
 std::optional<int> read_job(int argc, const char* const* argv, Options& options, TransferJob& job) {
   std::string input, method = "fitted", choice = "root-area";
-  bool lightmap = false;
+  bool lightmap = false, no_reflections = false;
   PictureOptions& picture = job.picture;
   TransferParams& params = job.params;
   int gather = static_cast<int>(params.gather), seed = 1;
@@ -72,6 +72,7 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
   options.option("--photons", &params.photons, "of the chapter: that the cloud sends");
   options.option("--nearest", &params.nearest, "of these, looked at from each sample of the cloud");
   options.option("--seed", &seed, "of the random numbers");
+  options.flag("--no-reflections", &no_reflections, "no lobes of a camera's pixels that mirror");
   options.flag("--resume", &job.resume, "go on with what an interrupted transfer left");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (lightmap && !picture.camera.empty()) throw UsageError({}, "--lightmap and --camera exclude each other");
@@ -86,28 +87,38 @@ std::optional<int> read_job(int argc, const char* const* argv, Options& options,
     params.method = TransferMethod::exact;
   else if (method != "fitted")
     throw UsageError("option '--method'", "unknown method '" + method + "'", "fitted, chapter, exact");
+  job.lobes = !no_reflections;
   job.package = input;
   job.options = given_options(options);
   return std::nullopt;
 }
 
 void report(const MadeOperator& made, const TransferJob& job, double seconds, const Options& options) {
-  const auto& [op, path] = made;
+  const auto& [operators, path, lobes_at] = made;
+  const auto& [op, lobes] = operators;
   const auto bytes = std::filesystem::file_size(path);
   if (options.json) {
-    const nlohmann::ordered_json report = {{"input", job.package.string()},
-                                           {"output", path.string()},
-                                           {"receivers", op.gather.rows},
-                                           {"gather", op.slots()},
-                                           {"multiplications_per_receiver", op.gather.macs_per_row()},
-                                           {"sweeps", op.sweeps},
-                                           {"matrix_bytes", op.bytes()},
-                                           {"bytes", bytes},
-                                           {"seconds", seconds}};
+    nlohmann::ordered_json report = {{"input", job.package.string()},
+                                     {"output", path.string()},
+                                     {"receivers", op.gather.rows},
+                                     {"gather", op.slots()},
+                                     {"multiplications_per_receiver", op.gather.macs_per_row()},
+                                     {"sweeps", op.sweeps},
+                                     {"matrix_bytes", op.bytes()},
+                                     {"bytes", bytes},
+                                     {"seconds", seconds}};
+    if (lobes)
+      report["lobes"] = {{"output", lobes_at.string()},
+                         {"receivers", lobes->gather.rows},
+                         {"multiplications_per_receiver", lobes->gather.macs_per_row()},
+                         {"bytes", std::filesystem::file_size(lobes_at)}};
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!options.quiet) {
     fmt::print("{}: {} receivers, {} samples, {:.1f} MB, {:.1f} s\n", path.string(), op.gather.rows,
                op.slots(), static_cast<double>(bytes) / 1e6, seconds);
+    if (lobes)
+      fmt::print("{}: lobes of {} pixels that mirror, {:.1f} MB\n", lobes_at.string(), lobes->gather.rows,
+                 static_cast<double>(std::filesystem::file_size(lobes_at)) / 1e6);
   }
   options.next({job.package.string()});
 }

@@ -17,7 +17,7 @@ namespace {
 /// All that rows of F depend on beside the scene.
 std::string key_of(const TransferParams& p, const RelightReceivers& receivers) {
   std::string key =
-      fmt::format("{} {} {} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
+      fmt::format("weighed {} {} {} {} {} {} {} {} {} {} {}", p.gather, p.rays, p.cluster, p.coefficients,
                   p.bounce_coefficients, p.points, p.lights, p.seed, receivers.source.count,
                   static_cast<int>(p.method), static_cast<int>(p.choice));
   for (int c = 0; c < 4; ++c)
@@ -47,9 +47,11 @@ MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, cons
           job.picture.find_camera(view->scene(), [&] { return view->camera("", progress); });
       const PictureParams size = job.picture.params(camera);
       receivers = pixel_receivers(view->traced(), camera, size.width, size.height);
+      if (!job.lobes) receivers.glossy = {};
     }
     scene = operator_scene(*package);
     made.path = operator_path(package->path(), job.picture.camera);
+    if (!job.picture.camera.empty()) made.lobes_path = lobes_path(package->path(), job.picture.camera);
     file = fs::path(made.path) += ".state";
     std::error_code ec;
     if (ranks.index != 0) return;
@@ -71,10 +73,17 @@ MadeOperator run_transfer_job(const TransferJob& job, RankSession& session, cons
     left = read_transfer_records(files, key);
   });
   session.together([&] { state.emplace(file_of_rank(file, ranks.index), key, job.resume, std::move(left)); });
-  made.op = make_operator(view->traced(), receivers, job.params, scene, {progress, &*state, ranks});
-  made.op.options = job.options;
+  made.operators = make_operators(view->traced(), receivers, job.params, scene, {progress, &*state, ranks});
+  auto& [op, lobes] = made.operators;
+  op.options = job.options;
+  if (lobes) lobes->options = job.options;
   session.together([&] {
-    if (ranks.index == 0) write_operator(made.path, made.op);
+    if (ranks.index != 0) return;
+    std::error_code ec;
+    // Those of another operator would not fit this one.
+    if (!made.lobes_path.empty()) fs::remove(made.lobes_path, ec);
+    write_operator(made.path, op);
+    if (lobes) write_operator(made.lobes_path, *lobes);
   });
   state->remove();
   session.together([&] {

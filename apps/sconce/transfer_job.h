@@ -15,11 +15,12 @@ struct TransferJob {
   TransferParams params;
   std::string options;  ///< as they were given, for people
   bool resume = false;
+  bool lobes = true;  ///< of pixels that mirror, too
 };
 
 struct MadeOperator {
-  Operator op;
-  std::filesystem::path path;
+  MadeOperators operators;
+  std::filesystem::path path, lobes_path;
 };
 
 /// Makes the operator, all ranks together, and writes it. @throws Error, UsageError; Cancelled

@@ -179,8 +179,9 @@ void RealtimeRadiosity::set_albedo(Solver& solver, const Detection& detection) c
       sum += solver.faces[i].triangle != kNone
                  ? detection.at(world_, solver.faces[i].triangle, solver.faces[i].barycentric).reflectance
                  : unpack_albedo(solver.op.lit[i].albedo);
-    sum *= 1 / static_cast<float>(points);
-    solver.albedo[node] = {sum.r, sum.g, sum.b, 0};
+    const float weight = solver.op.albedo[node][3];  // Operator::albedo
+    sum *= (weight > 0 ? weight : 1.0f) / static_cast<float>(points);
+    solver.albedo[node] = {sum.r, sum.g, sum.b, weight};
   }
   solver.op.albedo = solver.albedo;
   solver.bounces = std::make_unique<FoldedBounces>(solver.op);

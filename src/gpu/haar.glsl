@@ -8,10 +8,12 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 0) readonly buffer From { vec4 from[]; };
 layout(std430, binding = 1) buffer To { vec4 to[]; };
 layout(std430, binding = 2) writeonly buffer Averages { vec4 averages[]; };
+layout(std430, binding = 3) readonly buffer Weights { vec4 albedo_and_weight[]; };
 
 uniform uint size;     // of `from`
 uniform float factor;  // of what is written
 uniform bool more;     // it is added
+uniform bool weighed;  // from light of slots as it is
 
 shared vec4 square[1024];
 
@@ -21,7 +23,10 @@ void put(uint i, vec4 value) {
 
 void main() {
   uint thread = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, count = min(1024u, size);
-  for (uint i = thread; i < count; i += 256u) square[i] = from[1024u * group + i];
+  for (uint i = thread; i < count; i += 256u) {
+    square[i] = from[1024u * group + i];
+    if (weighed && albedo_and_weight[1024u * group + i].w > 0.0) square[i] *= albedo_and_weight[1024u * group + i].w;
+  }
   barrier();
   uint n = size / 4u, first = 256u * group;  // averages of this level, the group's first
   for (uint blocks = count / 4u; blocks > 0u; blocks /= 4u) {

@@ -86,7 +86,8 @@ Transfer::Transfer(const Context& context, const Operator& op)
   context.check("uploading the operator");
 }
 
-void Transfer::transform(const Buffer& from, uint32_t size, const Buffer& to, float factor, bool more) const {
+void Transfer::transform(const Buffer& from, uint32_t size, const Buffer& to, float factor, bool more,
+                         const Buffer* weights) const {
   const Buffer* left = &from;
   haar_.use();
   haar_.set("factor", factor);
@@ -96,6 +97,9 @@ void Transfer::transform(const Buffer& from, uint32_t size, const Buffer& to, fl
     left->bind(0);
     to.bind(1);
     averages_.bind(2);
+    haar_.set("weighed", weights != nullptr ? 1 : 0);
+    if (weights != nullptr) weights->bind(3);
+    weights = nullptr;  // averages have theirs
     glDispatchCompute(std::max(1u, n / kSquare), 1, 1);
     buffers_written();
     left = &averages_;
@@ -150,7 +154,8 @@ void Transfer::bounce(const Bounces& b) const {
 }
 
 void Transfer::apply() const {
-  transform(exitance_, slots_, coefficients_);
+  const bool weighed = bounces_ && bounces_->nodes == slots_;
+  transform(exitance_, slots_, coefficients_, 1, false, weighed ? &bounces_->albedo : nullptr);
   if (bounces_) bounce(*bounces_);
   answer(gather_, coefficients_);
   combine(gather_, gather_.sums, illuminance_, nullptr);

@@ -44,10 +44,11 @@ class Transfer {
     Rows first, all;
     Buffer folded, answers, albedo, coefficients, light, sum;
   };
-  /// @param factor  of what is written
-  /// @param more    it is added to what is there
-  void transform(const Buffer& from, uint32_t size, const Buffer& to, float factor = 1,
-                 bool more = false) const;
+  /// @param factor   of what is written
+  /// @param more     it is added to what is there
+  /// @param weights  Operator::albedo: of what is read; may be null
+  void transform(const Buffer& from, uint32_t size, const Buffer& to, float factor = 1, bool more = false,
+                 const Buffer* weights = nullptr) const;
   void answer(const Rows& rows, const Buffer& light) const;
   /// @param reflected  null for receivers
   void combine(const Rows& rows, const Buffer& answers, const Buffer& out, const Bounces* reflected) const;

@@ -69,7 +69,7 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
     return hit.back ? -offset : offset;
   };
   Rgb light = illuminance(hit, sight.mix);
-  if (lit && sight.added) {
+  if (lit && sight.added && (met == 0 || !sight.mirrored)) {
     SurfacePoint seen = at;
     if (!sight.mix.components.empty()) seen.shading_normal += mapped();
     light += sight.added(seen);
@@ -85,6 +85,7 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
   if (wide && !meshes_.empty())
     highlights.emplace(*lamps_, meshes_, sight.mix.spec, surface, -ray.direction, at);
   const uint32_t rays = met == 0 && wide ? kLobeRays : 1;
+  const Rgb beside = met == 0 && sight.mirrored ? sight.mirrored(at) : Rgb();
   Rgb sum;
   for (uint32_t i = 0; i < rays; ++i) {
     Sight onwards = sight;
@@ -99,7 +100,7 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
       sum += highlights->pick(tracer_, sobol_pair(onwards.index, dimension, sight.stream ^ kPickStream));
     sum += glints(surface, -ray.direction, at, onwards);
   }
-  return sum / static_cast<float>(rays);
+  return sum / static_cast<float>(rays) + beside;
 }
 
 View::Seen View::look(const Ray& ray, const Sight& sight, int met, int panes) const {
@@ -134,8 +135,8 @@ View::Seen View::look(const Ray& ray, const Sight& sight, int met, int panes) co
 
 Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                    const PictureParams& params, const Progress& progress, Image* coverage,
-                   const AddedLight& added, const std::vector<Image>& components,
-                   const AddedGlints& glints) const {
+                   const AddedLight& added, const std::vector<Image>& components, const AddedGlints& glints,
+                   const AddedLight& mirrored) const {
   params.check();
   check_pages(package_->manifest(), mix, pages);
   if (!components.empty() && components.size() != 3 * pages.size())
@@ -155,8 +156,9 @@ Image View::render(const Camera& camera, const MixSpec& mix, const std::vector<I
     const uint32_t stream = mix32(id, params.seed ^ kLobeStream);
     for (int s = 0; s < params.samples; ++s) {
       const auto index = static_cast<uint32_t>(s);
-      Sight sight{mixed, {}, glints, params.reflections, stream, index};
+      Sight sight{mixed, {}, {}, glints, params.reflections, stream, index};
       if (added) sight.added = [&](const SurfacePoint& at) { return added(at, x, y, index); };
+      if (mirrored) sight.mirrored = [&](const SurfacePoint& at) { return mirrored(at, x, y, index); };
       const Seen seen = look({lens.eye(), lens.direction(ray_point(params, x, y, s))}, sight);
       sum += seen.radiance;
       emitters += seen.emitter ? 1 : 0;

@@ -51,13 +51,15 @@ class View {
   /// @param coverage    when given: per pixel, the share of samples that see an emitter (or the sky)
   /// directly, one channel
   /// @param added       light beside the lightmap's; may be empty
+  /// @param mirrored    what the surface that a pixel sees mirrors of light beside the lightmap's, cd/m2, in
+  /// place of following it: light at a mirror's other end is the lightmap's then; may be empty
   /// @param components  mix_components() of the same mix: with them normal maps are seen, E = max(0, E + g .
   /// (n - n_s)); without them surfaces are as smooth as their geometry
   /// @throws UsageError for a size or sample count below 1, Error for a camera without direction; Cancelled
   Image render(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
                const PictureParams& params, const Progress& progress = {}, Image* coverage = nullptr,
                const AddedLight& added = {}, const std::vector<Image>& components = {},
-               const AddedGlints& glints = {}) const;
+               const AddedGlints& glints = {}, const AddedLight& mirrored = {}) const;
   /// Whether components would be seen.
   bool sees_normal_maps() const;
   /// What the s-th ray of every pixel meets, whatever the mix: for pictures while faders move. Normal maps
@@ -101,7 +103,7 @@ class View {
   /// What a camera ray is followed with.
   struct Sight {
     const Mixed& mix;
-    std::function<Rgb(const SurfacePoint&)> added;
+    std::function<Rgb(const SurfacePoint&)> added, mirrored;
     const AddedGlints& glints;
     int reflections;
     uint32_t stream, index;                  ///< random numbers of the mirrors' lobes

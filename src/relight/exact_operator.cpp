@@ -26,20 +26,21 @@ void spread(const SparseRows& rows, std::size_t sample, const CloudSquare& squar
 
 }  // namespace
 
-Operator make_exact_operator(const TracedScene& traced, const RelightReceivers& receivers,
-                             const TransferParams& params, const std::string& scene,
-                             const TransferWork& work) {
+MadeOperators make_exact_operator(const TracedScene& traced, const RelightReceivers& receivers,
+                                  const TransferParams& params, const std::string& scene,
+                                  const TransferWork& work) {
   OperatorStart start(traced, receivers, params, ClusterRows::kLanes, work.progress);
-  Operator op = std::move(start.op);
+  Operator op = start.op;
+  const auto each = static_cast<uint32_t>(params.rays);
   op.scene = scene;
   const auto slots = static_cast<uint32_t>(params.gather);
   const PlainRows all{slots, std::vector<float>(slots, 1.0f), RowValues::floats};
 
   // K: rows of the solver `radiosity`, whose counts have 16 bits.
-  const int rays = std::min(params.rays, 65535);
-  const SparseRows kernel =
-      gather(traced.world, traced.tracer, *start.cloud, rays, params.seed, {}, work.progress, work.ranks)
-          .rows;
+  const int kernel_rays = std::min(params.rays, 65535);
+  const SparseRows kernel = gather(traced.world, traced.tracer, *start.cloud, kernel_rays, params.seed, {},
+                                   work.progress, work.ranks)
+                                .rows;
   const auto albedo = std::make_shared<std::vector<Rgbx>>(slots);
   for (uint32_t slot = 0; slot < slots; ++slot) {
     const Rgb& a = start.cloud->albedo(start.square.samples[slot]);
@@ -59,11 +60,22 @@ Operator make_exact_operator(const TracedScene& traced, const RelightReceivers& 
                     const ReceiverRays from(receivers, start.order[i], params.seed);
                     RowMaker maker(traced.world, traced.tracer, *start.cloud, start.square, {});
                     maker.start();
-                    for (uint32_t r = 0; r < static_cast<uint32_t>(params.rays); ++r)
-                      maker.shoot(from(r), r, from.stream);
-                    maker.finish(static_cast<uint32_t>(params.rays), row);
+                    for (uint32_t r = 0; r < each; ++r) maker.shoot(from(r), r, from.stream);
+                    maker.finish(each, row);
                   });
-  return op;
+  const std::vector<uint32_t> glossy = start.glossy(receivers);
+  if (glossy.empty()) return {std::move(op), std::nullopt};
+  Operator lobes = start.lobes(op, receivers, glossy, params);
+  make_plain_rows(static_cast<uint32_t>(glossy.size()), all, "lobes", work, nullptr, lobes, lobes.gather,
+                  [&](std::size_t i, std::vector<SparseEntry>& row) {
+                    const uint32_t own = glossy[i];
+                    const LobeRays rays(*receivers.glossy(own), receivers.places[own], params.seed);
+                    RowMaker maker(traced.world, traced.tracer, *start.cloud, start.square, {});
+                    maker.start();
+                    for (uint32_t r = 0; r < each; ++r) maker.follow(rays(r), r, rays.stream);
+                    maker.finish(each, row);
+                  });
+  return {std::move(op), std::move(lobes)};
 }
 
 }  // namespace sconce

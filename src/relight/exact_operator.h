@@ -8,9 +8,9 @@
 
 namespace sconce {
 
-/// As make_operator(). @pre check(params); no transmission
-Operator make_exact_operator(const TracedScene& traced, const RelightReceivers& receivers,
-                             const TransferParams& params, const std::string& scene,
-                             const TransferWork& work = {});
+/// As make_operators(). @pre check(params); no transmission
+MadeOperators make_exact_operator(const TracedScene& traced, const RelightReceivers& receivers,
+                                  const TransferParams& params, const std::string& scene,
+                                  const TransferWork& work = {});
 
 }  // namespace sconce

@@ -101,11 +101,31 @@ bool OperatorParts::may_meet(const Start& start, uint32_t rays, uint32_t stream)
   return false;
 }
 
-void OperatorParts::set_albedo(Operator& op) const {
+namespace {
+
+/// How much of the rays end on each slot, the most 1; rows that are divided by it are smoother (ADR 46).
+std::vector<float> weights_by_rays(std::span<const std::vector<SparseEntry>> rows) {
+  constexpr float kLeast = 0.02f, kMost = 50;  // of the mean
+  std::vector<float> weights(rows.size(), 0.0f);
+  double mean = 0;
+  for (const std::vector<SparseEntry>& row : rows)
+    for (const SparseEntry& e : row) weights[e.index] += e.value, mean += static_cast<double>(e.value);
+  mean /= static_cast<double>(rows.size());
+  if (!(mean > 0)) return {};
+  for (float& w : weights) w = std::clamp(w / static_cast<float>(mean), kLeast, kMost) / kMost;
+  return weights;
+}
+
+}  // namespace
+
+void OperatorParts::set_albedo(Operator& op) {
+  // With rows' sums kept even light must be even to the rows, too.
+  if (weights_.empty() && !params_.keep_sums) weights_ = weights_by_rays(slot_rows_);
   const auto albedo = std::make_shared<std::vector<Rgbx>>(params_.gather);
   for (uint32_t slot = 0; slot < params_.gather; ++slot) {
-    const Rgb& a = start_.cloud->albedo(start_.square.samples[slot]);
-    (*albedo)[slot] = {a.r, a.g, a.b, 0};
+    const float weight = weights_.empty() ? 0 : weights_[slot];
+    const Rgb a = (weight > 0 ? weight : 1) * start_.cloud->albedo(start_.square.samples[slot]);
+    (*albedo)[slot] = {a.r, a.g, a.b, weight};
   }
   op.albedo = *albedo;
   op.owners.push_back(albedo);
@@ -113,7 +133,6 @@ void OperatorParts::set_albedo(Operator& op) const {
 
 /// Rows of K that are to be made; `slots_` then tells which of them differ from before.
 void OperatorParts::shoot_slots(const TransferWork& work, Operator& op) {
-  set_albedo(op);
   const std::size_t slots = slot_rows_.size(), blocks = (slots + kRowBlock - 1) / kRowBlock;
   std::atomic<std::size_t> shot = 0;
   for_blocks(blocks, "bounce rows", work, [&](std::size_t block) {
@@ -148,6 +167,7 @@ void OperatorParts::shoot_slots(const TransferWork& work, Operator& op) {
       [&](std::size_t block, std::string_view& bytes) {
         for (std::vector<SparseEntry>& row : rows_of(block)) take_vector(bytes, row);
       });
+  set_albedo(op);
 }
 
 template <class Changed, class Set>
@@ -185,13 +205,20 @@ void OperatorParts::fit_bounces(const TransferWork& work, Operator& op) {
         fitted, slots, cluster, coefficients, "bounces", work, op, out,
         [&](std::size_t c) { return any(slots_, cluster * c, cluster); },
         [&](std::size_t c, ClusterRowsBuilder& builder) {
-          const std::size_t first = cluster * c;
-          builder.set_cluster(
-              c, std::span(slot_rows_).subspan(first, std::min<std::size_t>(cluster, slots - first)));
+          const auto own = std::span(slot_rows_)
+                               .subspan(cluster * c)
+                               .first(std::min<std::size_t>(cluster, slots - cluster * c));
+          Rows rows(own.begin(), own.end());
+          for (std::vector<SparseEntry>& row : rows) weigh(row);
+          builder.set_cluster(c, rows);
         });
     if (!params_.movable) fitted.light.reset();
   };
-  if (first_.light == nullptr) first_.light = std::make_unique<TrainingLight>(transformed_channels(lights_));
+  if (first_.light == nullptr) {
+    std::vector<std::vector<Rgbx>> weighed = lights_;
+    for (std::vector<Rgbx>& light : weighed) sconce::weigh(op, light);
+    first_.light = std::make_unique<TrainingLight>(transformed_channels(weighed));
+  }
   both(first_, kFirstCluster, params_.coefficients, op.first);
   if (bounce_.light == nullptr) {
     std::vector<std::vector<Rgbx>> once(lights_.size());
@@ -239,6 +266,7 @@ void OperatorParts::fit_gather(const TransferWork& work, Operator& op) {
           maker.start();
           for (uint32_t r = 0; r < rays; ++r) maker.shoot(from(r), r, from.stream);
           maker.finish(rays, rows[k]);
+          weigh(rows[k]);
           receiver_wanders_[cluster * c + k] = maker.wandered() ? 1 : 0;
         }
         shot += rows.size();
@@ -249,7 +277,42 @@ void OperatorParts::fit_gather(const TransferWork& work, Operator& op) {
         work.state->put(c, bytes);
       });
   report_.receivers = shot;
+  if (!params_.movable) fit_lobes(work, op);
   if (!params_.movable) gather_.light.reset();
+}
+
+/// Lobes are narrow, so that fewer pixels mirror alike.
+void OperatorParts::fit_lobes(const TransferWork& work, const Operator& op) {
+  constexpr uint32_t kLobeCluster = 64;
+  const std::vector<uint32_t> glossy = start_.glossy(receivers_);
+  if (glossy.empty()) return;
+  lobes_ = start_.lobes(op, receivers_, glossy, params_);
+  const auto rays = static_cast<uint32_t>(params_.rays);
+  Fitted fitted{std::move(gather_.light), {}};
+  fit(
+      fitted, static_cast<uint32_t>(glossy.size()), kLobeCluster, params_.coefficients, "lobes", work,
+      *lobes_, lobes_->gather, [](std::size_t) { return true; },
+      [&](std::size_t c, ClusterRowsBuilder& builder) {
+        const std::size_t kept = op.gather.clusters() + c;  // in the state, behind F's
+        if (work.state != nullptr)
+          if (std::string_view bytes = work.state->find(kept); !bytes.empty())
+            return builder.unpack(c, bytes);
+        RowMaker maker(world_, tracer_, *start_.cloud, start_.square, params_.transmission);
+        Rows rows(std::min<std::size_t>(kLobeCluster, glossy.size() - kLobeCluster * c));
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+          const uint32_t own = glossy[kLobeCluster * c + k];
+          const LobeRays lobe(*receivers_.glossy(own), receivers_.places[own], params_.seed);
+          maker.start();
+          for (uint32_t r = 0; r < rays; ++r) maker.follow(lobe(r), r, lobe.stream);
+          maker.finish(rays, rows[k]);
+          weigh(rows[k]);
+        }
+        builder.set_cluster(c, rows);
+        if (work.state == nullptr) return;
+        std::string bytes;
+        builder.pack(c, bytes);
+        work.state->put(kept, bytes);
+      });
 }
 
 Operator OperatorParts::finish(const TransferWork& work) {

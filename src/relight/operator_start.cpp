@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/sobol.h"
+#include "relight/row_maker.h"
 #include "transfer/flatten.h"
 
 namespace sconce {
@@ -96,6 +97,32 @@ void OperatorStart::place_points(const RelightReceivers& receivers, const Transf
   op.points_per_slot = points;
   op.lit = owned->lit, op.receivers = owned->receivers, op.places = owned->places;
   op.owners = {owned};
+}
+
+std::vector<uint32_t> OperatorStart::glossy(const RelightReceivers& receivers) const {
+  std::vector<uint32_t> out;
+  if (receivers.glossy)
+    std::copy_if(order.begin(), order.end(), std::back_inserter(out),
+                 [&](uint32_t own) { return receivers.glossy(own).has_value(); });
+  return out;
+}
+
+Operator OperatorStart::lobes(const Operator& whole, const RelightReceivers& receivers,
+                              std::span<const uint32_t> own, const TransferParams& params) const {
+  const auto owned = std::make_shared<OwnedPoints>();
+  owned->receivers.resize(own.size());
+  owned->places.resize(own.size());
+  parallel_for(own.size(), 256, [&](std::size_t i) {
+    const uint32_t place = receivers.places[own[i]];
+    const LobeRays rays(*receivers.glossy(own[i]), place, params.seed);
+    owned->receivers[i] = pack(rays.seen.at, rays.albedo(static_cast<uint32_t>(params.rays)));
+    owned->places[i] = place;
+  });
+  Operator out = whole;
+  out.kind = OperatorReceivers::lobes;
+  out.receivers = owned->receivers, out.places = owned->places;
+  out.owners.push_back(owned);
+  return out;
 }
 
 void OperatorStart::place(const RelightReceivers& receivers, const TransferParams& params) {

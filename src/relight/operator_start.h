@@ -28,6 +28,13 @@ struct OperatorStart {
   std::vector<SurfacePoint> middles;  ///< of the source's receivers
   Operator op;                        ///< all but the matrices, their albedos and the scene's hash
 
+  /// Those of receivers that mirror, in the same order: glossy(i) of each is there.
+  std::vector<uint32_t> glossy(const RelightReceivers& receivers) const;
+  /// An operator of the lobes of some receivers, by the same cloud and bounces: all but `gather`.
+  /// @param whole  with its bounces
+  Operator lobes(const Operator& whole, const RelightReceivers& receivers, std::span<const uint32_t> own,
+                 const TransferParams& params) const;
+
  private:
   void place_middles(const RelightReceivers& receivers);
   void place_points(const RelightReceivers& receivers, const TransferParams& params);

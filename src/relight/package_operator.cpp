@@ -17,6 +17,25 @@ fs::path operator_path(const fs::path& package, const std::string& camera) {
          (camera.empty() ? "lightmap.bin" : "camera-" + safe_file_name(camera) + ".bin");
 }
 
+fs::path lobes_path(const fs::path& package, const std::string& camera) {
+  return package / kOperatorFolder / ("camera-" + safe_file_name(camera) + ".lobes.bin");
+}
+
+std::optional<Operator> find_lobes(const Package& package, const Operator& op) {
+  const fs::path path = lobes_path(package.path(), op.camera);
+  std::error_code ec;
+  if (op.kind != OperatorReceivers::pixels || !fs::exists(path, ec)) return std::nullopt;
+  Operator lobes = open_operator(path);
+  const auto same = [](const OperatorPoint& a, const OperatorPoint& b) {
+    return a.position == b.position && a.albedo == b.albedo;
+  };
+  if (lobes.kind != OperatorReceivers::lobes || lobes.scene != op.scene || lobes.width != op.width ||
+      lobes.height != op.height ||
+      !std::equal(lobes.lit.begin(), lobes.lit.end(), op.lit.begin(), op.lit.end(), same))
+    throw Error(path.string(), "belongs to another operator: 'sconce transfer' makes both");
+  return lobes;
+}
+
 bool has_operator(const Package& package, const std::string& camera) {
   try {
     find_operator(package, camera);

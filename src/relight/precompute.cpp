@@ -32,18 +32,27 @@ void check(const TransferParams& p) {
   positive("--nearest", p.nearest, 1 << 20);
 }
 
-Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
-                       const TransferParams& params, const std::string& scene, const TransferWork& work) {
+MadeOperators make_operators(const TracedScene& traced, const RelightReceivers& receivers,
+                             const TransferParams& params, const std::string& scene,
+                             const TransferWork& work) {
   check(params);
   if (!params.transmission.empty() && params.transmission.size() != traced.scene.materials.size())
     throw UsageError("transmission", std::to_string(params.transmission.size()) + " values",
                      "one for each material: " + std::to_string(traced.scene.materials.size()));
   if (params.method == TransferMethod::chapter)
-    return make_chapter_operator(traced, receivers, params, scene, work);
+    return {make_chapter_operator(traced, receivers, params, scene, work), std::nullopt};
   if (params.method == TransferMethod::exact)
     return make_exact_operator(traced, receivers, params, scene, work);
   OperatorParts parts(traced, receivers, params, scene, work);
-  return parts.make(work);
+  Operator op = parts.make(work);
+  return {std::move(op), parts.take_lobes()};
+}
+
+Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
+                       const TransferParams& params, const std::string& scene, const TransferWork& work) {
+  RelightReceivers diffuse = receivers;
+  diffuse.glossy = {};
+  return make_operators(traced, diffuse, params, scene, work).op;
 }
 
 std::string operator_scene(const Package& package) {

@@ -41,10 +41,20 @@ struct TransferWork {
   Ranks ranks{};                   ///< share the rows; all get the operator
 };
 
+/// An operator, and for pixels the lobes of those that mirror, if there are any, by the same cloud.
+struct MadeOperators {
+  Operator op;
+  std::optional<Operator> lobes;
+};
+
 /// Rows stream through compression cluster by cluster; F is never held whole. The same bits at any number of
 /// threads and ranks.
 /// @param scene  hash that ties the file to its package: operator_scene()
 /// @throws UsageError naming the option; Cancelled
+MadeOperators make_operators(const TracedScene& traced, const RelightReceivers& receivers,
+                             const TransferParams& params, const std::string& scene,
+                             const TransferWork& work = {});
+/// The first of them.
 Operator make_operator(const TracedScene& traced, const RelightReceivers& receivers,
                        const TransferParams& params, const std::string& scene, const TransferWork& work = {});
 

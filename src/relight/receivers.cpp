@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "picture/gloss.h"
 #include "receive/layout.h"
 
 namespace sconce {
@@ -193,6 +194,16 @@ RelightReceivers pixel_receivers(const TracedScene& traced, const Camera& camera
   };
   out.albedo = [kept, traced](std::size_t i) {
     return shade(traced.scene, traced.world, (*kept)[i].triangle, (*kept)[i].barycentric).receiver_albedo();
+  };
+  out.glossy = [kept, traced, eye = lens.eye()](std::size_t i) -> std::optional<Glossy> {
+    const Hit& hit = (*kept)[i];
+    Glossy seen{shade(traced.scene, traced.world, hit.triangle, hit.barycentric), {}, {}};
+    if (!mirrors(seen.surface)) return std::nullopt;
+    seen.at = surface_point(traced.world, hit);
+    const Vec3 mapped = normal_offset(traced.scene, traced.world, hit.triangle, hit.barycentric);
+    seen.at.shading_normal += hit.back ? -mapped : mapped;
+    seen.to_eye = glm::normalize(eye - seen.at.position);
+    return seen;
   };
   return out;
 }

@@ -3,12 +3,21 @@
 // of a fixed camera (the chapter's deep frame buffer).
 #pragma once
 
+#include <optional>
+
 #include "core/progress.h"
 #include "picture/render.h"
 #include "receive/atlas.h"
 #include "transfer/operator.h"
 
 namespace sconce {
+
+/// What an eye sees of a surface that mirrors.
+struct Glossy {
+  Shade surface;
+  Vec3 to_eye;      ///< unit
+  SurfacePoint at;  ///< its shading normal is the normal map's
+};
 
 /// Receivers and where their answers go.
 struct RelightReceivers {
@@ -18,6 +27,8 @@ struct RelightReceivers {
   std::vector<uint32_t> places;          ///< Operator::places
   ReceiverSource source;
   std::function<Rgb(std::size_t)> albedo;  ///< diffuse; thread-safe
+  /// Of pixels: those that mirror; thread-safe. None of other receivers, and where lobes are not wanted.
+  std::function<std::optional<Glossy>(std::size_t)> glossy;
 };
 
 /// The package's atlas on the triangles of its View. @throws Error when the package has no layout, or another

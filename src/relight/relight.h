@@ -11,9 +11,10 @@ namespace sconce {
 class Relighter {
  public:
   /// Lights the cloud and sends its light to all receivers. All but the bounces must outlive it.
-  /// @param cull  Culling::apply()'s share; 0 = nothing is left out
+  /// @param cull   Culling::apply()'s share; 0 = nothing is left out
+  /// @param lobes  find_lobes(); need not outlive it
   Relighter(const Package& package, const View& view, const Operator& op, const FoldedBounces& bounces,
-            const MovedLamps& lamps, float cull = 0);
+            const MovedLamps& lamps, float cull = 0, const Operator* lobes = nullptr);
 
   /// E_i per receiver, lux.
   const std::vector<Rgb>& indirect() const { return indirect_; }
@@ -22,6 +23,8 @@ class Relighter {
   /// What pixels see besides the lightmap: direct light, and indirect light where pixels are the receivers:
   /// of the nearest in place and normal among 3 x 3 (the chapter, 9.8.1).
   AddedLight added() const;
+  /// Of pixels: what they mirror of that light, cd/m2, of the nearest likewise. Empty without lobes.
+  AddedLight mirrored() const;
 
   struct Seconds {
     double direct = 0, indirect = 0;  ///< on the cloud; from there to the receivers
@@ -30,7 +33,10 @@ class Relighter {
   const Culling::Report& culled() const { return culled_; }
 
  private:
-  Rgb nearest_pixel(const SurfacePoint& at, int x, int y) const;
+  /// @param of  per pixel: its row, or none
+  /// @return the nearest row; none where no pixel around has one
+  std::optional<uint32_t> nearest_row(std::span<const uint32_t> of, std::span<const OperatorPoint> points,
+                                      const SurfacePoint& at, int x, int y) const;
 
   const Package& package_;
   const View& view_;
@@ -38,6 +44,9 @@ class Relighter {
   const MovedLamps& lamps_;
   std::vector<Rgb> indirect_;
   std::vector<uint32_t> receiver_of_;  ///< of pixels: per pixel
+  std::span<const OperatorPoint> lobes_;
+  std::vector<Rgb> mirrored_;      ///< per lobe, cd/m2
+  std::vector<uint32_t> lobe_of_;  ///< per pixel
   Seconds seconds_;
   Culling::Report culled_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gather/row_rays.h"
+#include "picture/gloss.h"
 #include "relight/cloud_square.h"
 #include "relight/receivers.h"
 #include "transfer/sparse_rows.h"
@@ -21,6 +22,26 @@ struct ReceiverRays {
   SurfacePoint operator()(uint32_t r) const { return footprint.sample(sobol_pair(r, 0, stream)); }
 };
 
+/// Where the rays of a glossy pixel's row go: over its lobe, each as it counts.
+struct LobeRays {
+  Glossy seen;
+  uint32_t stream;
+
+  LobeRays(Glossy glossy, uint32_t place, uint32_t seed)
+      : seen(std::move(glossy)), stream(mix32(mix32(seed, 0x6c6f6265u), place)) {}
+  Gloss lobe(uint32_t r) const { return gloss(seen.surface, seen.to_eye, seen.at, sobol_pair(r, 0, stream)); }
+  Ray operator()(uint32_t r) const {
+    const Vec3 direction = lobe(r).direction;
+    return {offset_origin(seen.at.position, seen.at.geometric_normal, direction), direction};
+  }
+  /// Mean share of what comes along the lobe that goes on to the eye.
+  Rgb albedo(uint32_t rays) const {
+    Rgb sum;
+    for (uint32_t r = 0; r < rays; ++r) sum += lobe(r).mirrored;
+    return sum / static_cast<float>(rays);
+  }
+};
+
 /// Hits of one receiver's rays as a sparse row.
 class RowMaker {
  public:
@@ -34,8 +55,10 @@ class RowMaker {
   bool wandered() const { return wandered_; }
   /// Sends ray r of the row, and through what lets it through.
   void shoot(const SurfacePoint& from, uint32_t r, uint32_t stream) {
+    follow(row_ray(from, r, 0, stream), r, stream);
+  }
+  void follow(std::optional<Ray> ray, uint32_t r, uint32_t stream) {
     constexpr uint32_t kMostPanes = 8, kPanePair = 32, kTintPair = 48;  // pairs that no step of a ray uses
-    auto ray = row_ray(from, r, 0, stream);
     for (uint32_t pane = 0; ray && pane <= kMostPanes; ++pane) {
       const Passage met = follow_row_panes(tracer_, *ray, r, 0, stream ^ pane);
       const Hit& hit = met.hit;

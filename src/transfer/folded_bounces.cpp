@@ -47,6 +47,7 @@ FoldedBounces::FoldedBounces(const Operator& op)
 
 void FoldedBounces::apply(std::span<Rgbx> exitance) const {
   if (rank_ == 0) return bounce_light(op_, exitance);
+  weigh(op_, exitance);
   haar_forward(exitance);
   // Light that was reflected once: all of it goes on, and what its bounces add comes through K once more.
   std::vector<Rgbx> once = reflected_once(op_, exitance);

@@ -16,7 +16,7 @@ class FoldedBounces {
   /// @param op  must outlive it
   explicit FoldedBounces(const Operator& op);
 
-  /// As bounce_light(): b_d becomes the wavelet coefficients of (M + I) b_d. In place.
+  /// As bounce_light(): b_d becomes the wavelet coefficients of (M + I) b_d, weighed. In place.
   void apply(std::span<Rgbx> exitance) const;
   /// Illuminance by light that was reflected at least once, lux; per receiver. What truncated rows leave
   /// below zero is darkness.

@@ -53,9 +53,24 @@ void reflect(std::span<const Rgb> illuminance, std::span<const Rgbx> albedo, std
 
 }  // namespace
 
+void weigh(const Operator& op, std::span<Rgbx> exitance) {
+  if (op.albedo.size() != exitance.size()) return;
+  for (std::size_t i = 0; i < exitance.size(); ++i) {
+    const float weight = op.albedo[i][3];
+    if (!(weight > 0)) continue;
+    for (std::size_t c = 0; c < 3; ++c) exitance[i][c] *= weight;
+  }
+}
+
 uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, double tolerance) {
   constexpr uint32_t kMost = 1000;
-  std::vector<Rgbx> light(bounce.rows, Rgbx{1, 1, 1, 0});
+  std::vector<Rgbx> light;
+  double even = 0;
+  for (const Rgbx& a : albedo) {
+    const float weight = a[3] > 0 ? a[3] : 1.0f;
+    light.push_back({weight, weight, weight, 0});
+    even += static_cast<double>(weight);
+  }
   std::vector<Rgb> scratch(bounce.rows);
   std::array<double, 3> before{};
   for (uint32_t sweeps = 0; sweeps < kMost; ++sweeps) {
@@ -63,7 +78,7 @@ uint32_t enough_sweeps(const ClusterRows& bounce, std::span<const Rgbx> albedo, 
     for (std::size_t c = 0; c < 3; ++c) {
       double left = 0;
       for (const Rgbx& l : light) left += std::abs(static_cast<double>(l[c]));
-      left /= static_cast<double>(light.size());
+      left /= even;
       // All that is still to come, were it to fall off from now on as in the last sweep.
       const double ratio = before[c] > 0 ? left / before[c] : 1;
       still = std::max(still, ratio < 1 ? left / (1 - ratio) : left > 0 ? 1.0 : 0.0);
@@ -100,6 +115,7 @@ std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> coeff
 
 std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitance) {
   std::vector<Rgbx> light(exitance.begin(), exitance.end());
+  weigh(op, light);
   haar_forward(light);
   return reflected_once(op, light);
 }
@@ -113,6 +129,7 @@ void add_reflected(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes) {
 }
 
 void bounce_light(const Operator& op, std::span<Rgbx> exitance) {
+  weigh(op, exitance);
   haar_forward(exitance);
   if (op.sweeps == 0) return;
   const std::size_t n = op.bounce.rows;

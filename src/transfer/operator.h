@@ -26,7 +26,9 @@ Vec3 unpack_normal(const std::array<int16_t, 2>& packed);
 std::array<uint16_t, 4> pack_albedo(const Rgb& albedo);
 Rgb unpack_albedo(const std::array<uint16_t, 4>& packed);
 
-enum class OperatorReceivers : uint32_t { texels, pixels, vertices };
+/// Lobes are those of pixels that mirror: rows over the directions of their reflection; the mean radiosity
+/// that a row sees times the pixel's albedo / pi is what comes to the eye, cd/m2.
+enum class OperatorReceivers : uint32_t { texels, pixels, vertices, lobes };
 
 /// Arrays may lie in the bytes of a file, which `owners` keep.
 struct Operator {
@@ -47,7 +49,9 @@ struct Operator {
   /// K of the cloud in two steps: `first` from slots to nodes, which are equal runs of slots (of one: ADR
   /// 17), `bounce` from nodes to nodes for light that was reflected and is even.
   ClusterRows first, bounce;
-  std::span<const Rgbx> albedo;  ///< per node; with one sweep of all bounces, times what they do to colours
+  /// Per node; with one sweep of all bounces, times what they do to colours. The fourth: what light of slots
+  /// is multiplied by before any rows see it, and this albedo is already; 0: 1 (ADR 46).
+  std::span<const Rgbx> albedo;
   std::vector<std::shared_ptr<const void>> owners;
 
   uint32_t slots() const { return gather.basis.columns; }
@@ -59,22 +63,25 @@ struct Operator {
 /// @param direct  lux at `lit[i]`; thread-safe
 std::vector<Rgbx> slot_exitance(const Operator& op, const std::function<Rgb(std::size_t i)>& direct);
 
+/// Light of slots as rows see it: times their weights. In place.
+void weigh(const Operator& op, std::span<Rgbx> exitance);
+
 /// E_i = F (M + I) b_d: multiply() after all bounces, M = rho K + rho K rho K + ... by sweeps of scalar K and
 /// RGB rho. Linear in its input to float rounding.
 /// @param exitance  b_d = albedo x direct illuminance, mean over the slot's points, lm/m2; per slot. Changed
 /// @return illuminance by light that was reflected at least once, lux; per receiver
 std::vector<Rgb> indirect_light(const Operator& op, std::vector<Rgbx>& exitance);
 
-/// Light of the cloud after its first reflection, per node, lm/m2.
+/// Light of the cloud after its first reflection, per node, lm/m2, weighed.
 /// @param exitance  per slot
 std::vector<Rgbx> first_bounce(const Operator& op, std::span<const Rgbx> exitance);
 
-/// The first half of it: the wavelet coefficients of (M + I) b_d. In place. Needs `first`, `bounce`,
+/// The first half of it: the wavelet coefficients of (M + I) b_d, weighed. In place. Needs `first`, `bounce`,
 /// `albedo`.
 void bounce_light(const Operator& op, std::span<Rgbx> exitance);
 
-/// The parts of it, on wavelet coefficients of b_d: light after its first reflection, per node; and adding
-/// light of nodes. @param nodes  changed
+/// The parts of it, on wavelet coefficients of weighed b_d: light after its first reflection, per node; and
+/// adding light of nodes. @param nodes  changed
 std::vector<Rgbx> reflected_once(const Operator& op, std::span<const Rgbx> coefficients);
 void add_reflected(std::span<Rgbx> coefficients, std::vector<Rgbx>& nodes);
 

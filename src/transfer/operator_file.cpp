@@ -210,7 +210,9 @@ Operator open_operator(const std::filesystem::path& path, bool check) {
   if (check && hash_hex(bytes.substr(kChecked)) != take_text(head.checksum))
     throw Error(where, "is damaged: its content is not what its checksum says");
   const Error broken(where, "is damaged: its tables do not fit each other");
-  if (head.sections < kLeastSections || head.sections > kMostSections || head.kind > 1 ||
+  if (head.sections < kLeastSections || head.sections > kMostSections ||
+      head.kind > static_cast<uint32_t>(OperatorReceivers::lobes) ||
+      head.kind == static_cast<uint32_t>(OperatorReceivers::vertices) ||
       bytes.size() < sizeof head + head.sections * sizeof(Section))
     throw broken;
   Operator op;

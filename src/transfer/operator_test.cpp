@@ -13,6 +13,7 @@
 #include "core/test_data.h"
 #include "core/test_folder.h"
 #include "transfer/folded_bounces.h"
+#include "transfer/test_operator.h"
 
 namespace sconce {
 namespace {
@@ -257,6 +258,28 @@ TEST_F(OperatorTest, FoldedBouncesAreManySweeps) {
 }
 
 // What another builder takes over as bytes are the same rows.
+// ADR 46: given as it is, light of slots is multiplied by their weights, in sweeps and all at once.
+TEST(WeighedSlots, AreLightTimesWeight) {
+  const Operator op = made_up_operator({.receivers = 40, .slots = 256, .cluster = 64, .node_cluster = 64});
+  Operator without = op;
+  std::vector<Rgbx> albedo(op.albedo.begin(), op.albedo.end());
+  for (Rgbx& a : albedo) a[3] = 0;
+  without.albedo = albedo;
+  std::vector<Rgbx> light(op.slots()), by_hand(op.slots());
+  for (uint32_t i = 0; i < op.slots(); ++i) {
+    light[i] = {static_cast<float>(i % 7), 1, 2, 0};
+    ASSERT_GT(op.albedo[i][3], 0);
+    for (std::size_t c = 0; c < 3; ++c) by_hand[i][c] = op.albedo[i][3] * light[i][c];
+  }
+  std::vector<Rgbx> folded = light, swept = light, expected = by_hand;
+  FoldedBounces(op).apply(folded);
+  FoldedBounces(without).apply(expected);
+  EXPECT_EQ(folded, expected);
+  bounce_light(op, swept);
+  bounce_light(without, by_hand);
+  EXPECT_EQ(swept, by_hand);
+}
+
 TEST(ClusterRows, PackedClustersAreTheSameRows) {
   const TrainingLight light = training();
   ClusterRowsBuilder one(80, light, {32, 64}), other(80, light, {32, 64});

@@ -79,7 +79,9 @@ inline Operator made_up_operator(const MadeUpParams& p) {
     for (ClusterRows* rows : {&op.gather, &op.first}) rows->weights = {}, rows->scales = {};
   }
   const auto albedo = std::make_shared<std::vector<Rgbx>>();
-  for (uint32_t i = 0; i < nodes; ++i) albedo->push_back({0.2f + 0.6f * numbers.unit(), 0.5f, 0.3f, 0});
+  const bool weighed = p.bounces && p.slots_per_node == 1;
+  for (uint32_t i = 0; i < nodes; ++i)
+    albedo->push_back({0.2f + 0.6f * numbers.unit(), 0.5f, 0.3f, weighed ? 0.1f + 0.9f * numbers.unit() : 0});
   op.albedo = *albedo;
   op.owners.push_back(albedo);
   return op;
