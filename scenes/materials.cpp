@@ -30,16 +30,7 @@ void add_materials(Stage& stage) {
   stage.texture("rug", rug(), {1.1f, 0.7f});
   stage.texture("terracotta towel", terry("b8502f", "efe3d0"), {1, 1}, true);
   stage.texture("teal towel", terry("0f8284", "e3ece6"), {1, 1}, true);
-  stage.paint("mirror", "e9edec");
-
-  const bool metal = true;
-  stage.polish("mirror", 0, metal);
-  stage.polish("brass", 0.25f, metal);
-  stage.polish("ceramic", 0.1f);
-  stage.polish("enamel", 0.1f);
-  stage.polish("amber glass", 0.1f);
-  stage.polish("sage bottle", 0.15f);
-  stage.polish("wall tile", 0.2f);
+  stage.texture("mirror", mirror_sheen(), {0.6f, 0.96f});
 }
 
 }  // namespace sconce::demo

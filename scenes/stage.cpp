@@ -42,12 +42,6 @@ void Stage::paint(const std::string& name, const char* srgb, bool double_sided) 
   materials_[name] = last(scene.materials);
 }
 
-void Stage::polish(const std::string& material, float roughness, bool metal) {
-  Material& m = scene.materials[materials_.at(material).value];
-  m.roughness = roughness;
-  m.metallic = metal ? 1 : 0;
-}
-
 void Stage::texture(const std::string& name, const Image8& image, Vec2 metres, bool double_sided) {
   Texture t;
   t.name = name;

@@ -17,9 +17,6 @@ class Stage {
   /// Textured material; one repetition covers `metres`.
   void texture(const std::string& name, const Image8& image, Vec2 metres, bool double_sided = false);
 
-  /// The material shines from now on: what is mirrored, wide by glTF's roughness; metals mirror in their colour.
-  void polish(const std::string& material, float roughness, bool metal = false);
-
   void add(const std::string& name, const std::string& material, const MeshBuilder& shape,
            float lightmap_scale = 1);
   /// A one-sided emitter whose luminance is chosen so that it sends out `lumens`.

@@ -176,4 +176,17 @@ Image8 terry(const char* srgb_body, const char* srgb_stripe) {
   });
 }
 
+Image8 mirror_sheen() {
+  const Rgb low = hex("8d999d"), high = hex("c3cdd0");
+  return paint(96, 144, [&](float u, float v) {
+    const float d = u + 1.1f * (1 - v);
+    const auto band = [&](float centre, float width) {
+      return std::exp(-(d - centre) * (d - centre) / (width * width));
+    };
+    return mix(
+        low, high,
+        std::clamp(0.75f * band(0.72f, 0.16f) + 0.5f * band(1.22f, 0.09f) + 0.12f * (1 - v), 0.0f, 1.0f));
+  });
+}
+
 }  // namespace sconce::demo

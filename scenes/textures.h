@@ -12,5 +12,6 @@ Image8 floor_mosaic();                                         ///< 4 x 4 shower
 Image8 oak();                                                  ///< straight grain along v
 Image8 rug();                                                  ///< the whole rug: stripes across u
 Image8 terry(const char* srgb_body, const char* srgb_stripe);  ///< towel: v runs along its length
+Image8 mirror_sheen();  ///< a soft diagonal sheen that lets a diffuse surface read as glass
 
 }  // namespace sconce::demo
