@@ -11,6 +11,13 @@ namespace {
 constexpr uint32_t kRays = 32;  // to each lamp from each texel
 constexpr const char* kOption = "option '--object'";
 
+/// Before an operator is made for them. @throws UsageError
+ObjectMoves moves_to(const View& home, const std::vector<std::pair<std::string, Vec3>>& places) {
+  ObjectMoves moves;
+  for (const auto& [name, to] : places) moves[name] = to - middle_of_object(home, name, kOption);
+  return moves;
+}
+
 }  // namespace
 
 std::pair<std::string, Vec3> parse_object(const std::string& text) {
@@ -23,13 +30,11 @@ std::pair<std::string, Vec3> parse_object(const std::string& text) {
 ObjectsElsewhere::ObjectsElsewhere(const Package& package, const View& home,
                                    const std::vector<std::pair<std::string, Vec3>>& places,
                                    const Progress& progress)
-    : objects_(package, home, progress), follower_(package, home, progress) {
+    : moves_(moves_to(home, places)), objects_(package, home, progress), follower_(package, home, progress) {
   if (home.sees_normal_maps()) progress.warn("with --object surfaces are as smooth as their geometry");
-  ObjectMoves moves;
-  for (const auto& [name, to] : places) moves[name] = to - objects_.middle(name, kOption);
-  objects_.place(moves);
+  objects_.place(moves_);
   direct_ = objects_.direct(kRays, progress);
-  bounces_ = follower_.follow(moves, progress);
+  bounces_ = follower_.follow(moves_, progress);
 }
 
 }  // namespace sconce::app

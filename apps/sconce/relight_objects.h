@@ -22,6 +22,7 @@ class ObjectsElsewhere {
   }
 
  private:
+  ObjectMoves moves_;
   MovedObjects objects_;
   ObjectFollower follower_;
   std::vector<Rgb> direct_;

@@ -78,13 +78,8 @@ void Viewer::light_lamps_among_objects() {
 }
 
 void Viewer::choose_object(const std::string& name, const std::string& where) {
-  const View& home = state_.opened->rays;
-  const Bounds box = object_bounds(home.scene(), home.world(), name);
-  if (box.empty()) {
-    const std::vector<std::string> names = object_names(home.scene());
-    throw UsageError(where, "no object '" + name + "'" + did_you_mean(name, names), join(names, ", "));
-  }
-  state_.objects.chosen = name, state_.objects.home = box.center();
+  const Vec3 middle = middle_of_object(state_.opened->rays, name, where);
+  state_.objects.chosen = name, state_.objects.home = middle;
   state_.lamps.chosen.reset();
 }
 

@@ -38,6 +38,13 @@ std::vector<MovedGroup> all_groups(const Package& package) {
   return groups;
 }
 
+Vec3 middle_of_object(const View& view, const std::string& name, const std::string& where) {
+  const Bounds box = object_bounds(view.scene(), view.world(), name);
+  if (!box.empty()) return box.center();
+  const std::vector<std::string> names = object_names(view.scene());
+  throw UsageError(where, "no object '" + name + "'" + did_you_mean(name, names), join(names, ", "));
+}
+
 MovedObjects::MovedObjects(const Package& package, const View& home, const Progress& progress)
     : package_(package),
       home_(home),
@@ -55,17 +62,8 @@ MovedObjects::MovedObjects(const Package& package, const View& home, const Progr
   covered_ = covered_at_home_;
 }
 
-Vec3 MovedObjects::middle(const std::string& name, const std::string& where) const {
-  const Bounds box = object_bounds(view_.scene(), view_.world(), name);
-  if (box.empty()) {
-    const std::vector<std::string> names = object_names(view_.scene());
-    throw UsageError(where, "no object '" + name + "'" + did_you_mean(name, names), join(names, ", "));
-  }
-  return box.center();
-}
-
 void MovedObjects::place(const ObjectMoves& moves, const std::string& where) {
-  for (const auto& [name, by] : moves) middle(name, where);
+  for (const auto& [name, by] : moves) middle_of_object(view_, name, where);
   const auto boxes = [&] {
     for (const auto& [name, by] : moves)
       boxes_.push_back(widened(object_bounds(view_.scene(), view_.world(), name),

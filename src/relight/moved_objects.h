@@ -11,6 +11,9 @@
 
 namespace sconce {
 
+/// The middle of an object, its bounds'. @throws UsageError naming those that there are
+Vec3 middle_of_object(const View& view, const std::string& name, const std::string& where);
+
 class MovedObjects {
  public:
   /// A view of its own, with all objects at home. Package and view must outlive it.
@@ -24,8 +27,6 @@ class MovedObjects {
   /// Puts objects there; those that are not named go home. Nobody may look meanwhile. Throws UsageError for
   /// unknown names.
   void place(const ObjectMoves& moves, const std::string& where = {});
-  /// The middle of an object where it is. @throws UsageError naming those that there are
-  Vec3 middle(const std::string& name, const std::string& where = {}) const;
 
   /// How direct light differs from home, lux at unit weight: [receiver x groups + group]. Of texels that were
   /// covered at home all of it.

@@ -55,7 +55,7 @@ std::vector<Image> ObjectMover::pages(std::vector<Image> pages, const MixSpec& m
 std::vector<std::string> object_options(const ObjectMover& mover) {
   std::vector<std::string> out;
   for (const auto& [name, by] : mover.moves()) {
-    const Vec3 at = mover.objects().middle(name);
+    const Vec3 at = middle_of_object(mover.view(), name, {});
     out.push_back(fmt::format("{}={:.4f},{:.4f},{:.4f}", name, at.x, at.y, at.z));
   }
   if (mover.behind())
