@@ -219,6 +219,8 @@ TEST(Formats, BadInputIsOneLineThatNamesThePlace) {
   };
   EXPECT_EQ(with("1 1000 2 2 2 1 2", "1 1000 2 2 2 4 2"),
             "lamp.ies:4: the photometric type is 4 (allowed: a whole number from 1 to 3)");
+  EXPECT_EQ(with("1 1000 2 2 2 1 2", "1 1000 2 2 2 1e91 2"),
+            "lamp.ies:4: the photometric type is 1e+91 (allowed: a whole number from 1 to 3)");
   EXPECT_EQ(with("0 90\n", "90 0\n"), "lamp.ies:7: horizontal angle 2 of 2 is not above the one before");
   EXPECT_EQ(with("0 90\n", "0 45\n"),
             "lamp.ies:7: horizontal angles reach from 0 to 45 (allowed: from 0 to 0, 90, 180 or 360, or from "

@@ -75,7 +75,7 @@ double Numbers::next(const std::string& what) {
 
 int Numbers::integer(const std::string& what, int least, int most) {
   const double v = next(what);
-  if (v != static_cast<double>(static_cast<int>(v)) || v < least || v > most)
+  if (!(v >= least && v <= most) || v != std::floor(v))
     fail(fmt::format("{} is {:g}", what, v),
          "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(v);
