@@ -8,23 +8,15 @@
 
 namespace sconce {
 
-std::vector<uint32_t> mesh_lamps(const Lamps& lamps) {
-  std::vector<uint32_t> out;
-  for (std::size_t i = 0; i < lamps.size(); ++i)
-    if (std::holds_alternative<MeshLamp>(lamps.all()[i].shape)) out.push_back(static_cast<uint32_t>(i));
-  return out;
-}
-
-Highlights::Highlights(const Lamps& lamps, const std::vector<uint32_t>& meshes, const MixSpec& mix,
-                       const Shade& surface, const Vec3& to_eye, const SurfacePoint& at)
-    : lamps_(&lamps), meshes_(&meshes), mix_(&mix), surface_(surface), to_eye_(to_eye), at_(at) {
-  std::vector<float> seen(lamps.size());
-  lamps.importances(at.position, at.geometric_normal, seen);
+Highlights::Highlights(const Lamps& lamps, const MixSpec& mix, const Shade& surface, const Vec3& to_eye,
+                       const SurfacePoint& at)
+    : lamps_(&lamps), mix_(&mix), surface_(surface), to_eye_(to_eye), at_(at), chance_(lamps.size()) {
+  lamps.importances(at.position, at.geometric_normal, chance_);
   float sum = 0;
-  chance_.assign(lamps.size(), 0);
-  for (const uint32_t i : meshes) {
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps.all()[i];
-    sum += chance_[i] = seen[i] * luminance(weight_of(mix, lamp.group) * lamp.flux);
+    const bool mesh = std::holds_alternative<MeshLamp>(lamp.shape);
+    sum += chance_[i] *= mesh ? luminance(weight_of(mix, lamp.group) * lamp.flux) : 0;
   }
   if (!(sum > 0)) chance_.clear();
   for (float& chance : chance_) chance /= sum;
@@ -32,8 +24,8 @@ Highlights::Highlights(const Lamps& lamps, const std::vector<uint32_t>& meshes, 
 
 Rgb Highlights::pick(const Tracer& tracer, Vec2 u) const {
   if (chance_.empty()) return {};
-  uint32_t lamp = 0;
-  for (const uint32_t i : *meshes_) {
+  std::size_t lamp = 0;
+  for (std::size_t i = 0; i < chance_.size(); ++i) {
     if (!(chance_[i] > 0)) continue;
     lamp = i;
     if (u.x < chance_[i]) break;

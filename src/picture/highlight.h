@@ -11,18 +11,14 @@
 
 namespace sconce {
 
-/// Numbers of the lamps that are emissive meshes.
-std::vector<uint32_t> mesh_lamps(const Lamps& lamps);
-
 /// One point of a glossy surface and what it may mirror. What it refers to must outlive it.
 class Highlights {
  public:
-  /// @param meshes   mesh_lamps(lamps)
   /// @param to_eye   unit, above the surface
   /// @param at       its normals on the side of the eye
   /// @param surface  of some roughness: a mirror's lobe has no density
-  Highlights(const Lamps& lamps, const std::vector<uint32_t>& meshes, const MixSpec& mix,
-             const Shade& surface, const Vec3& to_eye, const SurfacePoint& at);
+  Highlights(const Lamps& lamps, const MixSpec& mix, const Shade& surface, const Vec3& to_eye,
+             const SurfacePoint& at);
 
   /// What is mirrored of a point picked on one of the lamps, cd/m2 at the mix's weights, shadow ray included.
   /// Its mean over all u and share() of what the lobe's rays meet are together the lamps' image.
@@ -34,12 +30,11 @@ class Highlights {
 
  private:
   const Lamps* lamps_;
-  const std::vector<uint32_t>* meshes_;
   const MixSpec* mix_;
   const Shade& surface_;
   Vec3 to_eye_;
   const SurfacePoint& at_;
-  std::vector<float> chance_;  ///< per lamp, sum 1; empty where none can be seen
+  std::vector<float> chance_;  ///< per lamp, sum 1; empty where no mesh can be seen
 };
 
 }  // namespace sconce

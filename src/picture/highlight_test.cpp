@@ -60,13 +60,11 @@ double image(const Shade& surface, const Vec3& to_eye) {
 
 TEST(Highlights, BothWaysTogetherAreTheLampsImage) {
   const Rig rig;
-  const std::vector<uint32_t> meshes = mesh_lamps(*rig.lamps);
-  ASSERT_EQ(meshes.size(), 1u);
   for (const float roughness : {0.1f, 0.3f, 0.7f})
     for (const float slant : {0.2f, -0.3f}) {
       const Vec3 to_eye = glm::normalize(Vec3(slant, 0.1f, 1));
       const Shade surface = brass(roughness);
-      const Highlights highlights(*rig.lamps, meshes, rig.mix, surface, to_eye, kPlace);
+      const Highlights highlights(*rig.lamps, rig.mix, surface, to_eye, kPlace);
       constexpr uint32_t kCount = 1 << 14;
       double both = 0, squares = 0, met = 0, met_squares = 0;
       for (uint32_t i = 0; i < kCount; ++i) {
@@ -87,10 +85,9 @@ TEST(Highlights, BothWaysTogetherAreTheLampsImage) {
 
 TEST(Highlights, NothingIsPickedThatIsOffOrHidden) {
   Rig rig;
-  const std::vector<uint32_t> meshes = mesh_lamps(*rig.lamps);
   const Shade surface = brass(0.4f);
   const auto picked = [&] {
-    const Highlights highlights(*rig.lamps, meshes, rig.mix, surface, Vec3(0, 0, 1), kPlace);
+    const Highlights highlights(*rig.lamps, rig.mix, surface, Vec3(0, 0, 1), kPlace);
     double sum = 0;
     for (uint32_t i = 0; i < 64; ++i)
       sum += static_cast<double>(highlights.pick(*rig.tracer, sobol_pair(i, 0, 5)).g);
@@ -101,7 +98,7 @@ TEST(Highlights, NothingIsPickedThatIsOffOrHidden) {
           false);
   const World walled = make_world(rig.scene);
   const Tracer behind(rig.scene, walled);
-  const Highlights highlights(*rig.lamps, meshes, rig.mix, surface, Vec3(0, 0, 1), kPlace);
+  const Highlights highlights(*rig.lamps, rig.mix, surface, Vec3(0, 0, 1), kPlace);
   EXPECT_TRUE(highlights.pick(behind, Vec2(0.5f)).is_black());
   rig.mix.weights.assign(1, Rgb(0));
   EXPECT_EQ(picked(), 0);

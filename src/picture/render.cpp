@@ -82,8 +82,7 @@ Rgb View::reflected(const Ray& ray, const Hit& hit, const Shade& surface, const 
   at.shading_normal += mapped();
   const bool wide = surface.roughness > kSharp;
   std::optional<const Highlights> highlights;
-  if (wide && !meshes_.empty())
-    highlights.emplace(*lamps_, meshes_, sight.mix.spec, surface, -ray.direction, at);
+  if (wide) highlights.emplace(*lamps_, sight.mix.spec, surface, -ray.direction, at);
   const uint32_t rays = met == 0 && wide ? kLobeRays : 1;
   const Rgb beside = met == 0 && sight.mirrored ? sight.mirrored(at) : Rgb();
   Rgb sum;

@@ -124,9 +124,8 @@ class View {
   const Package* package_;
   ShownScene shown_;
   Tracer tracer_;
-  std::unique_ptr<const Lamps> lamps_;  ///< null where none is an emissive mesh or a light field
+  std::unique_ptr<const Lamps> lamps_;  ///< null where nothing mirrors
   std::vector<std::size_t> near_;       ///< those that are light fields
-  std::vector<uint32_t> meshes_;        ///< those that are emissive meshes
 };
 
 }  // namespace sconce

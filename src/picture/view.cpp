@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "picture/glint.h"
-#include "picture/highlight.h"
 #include "picture/render.h"
 
 namespace sconce {
@@ -22,12 +21,9 @@ void View::place(const ObjectPlaces& places, const ObjectMoves& moves) {
 }
 
 void View::find_lamps() {
-  const auto any = [](const auto& all, const auto& is) { return std::any_of(all.begin(), all.end(), is); };
-  if (!any(scene().luminaires, [](const Luminaire& l) { return l.field != nullptr; }) &&
-      !any(scene().materials, [](const Material& m) { return m.emits(); }))
-    return;
+  if (!scene().has_mirrors()) return;
   lamps_ = std::make_unique<const Lamps>(scene(), world());
-  near_ = near_lamps(*lamps_), meshes_ = mesh_lamps(*lamps_);
+  near_ = near_lamps(*lamps_);
 }
 
 bool View::sees_normal_maps() const {
