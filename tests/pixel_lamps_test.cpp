@@ -3,28 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "core/test_data.h"
-#include "image/io.h"
-#include "package/glb.h"
-#include "process.h"
-#include "small_scenes.h"
+#include "relight_run.h"
 
 namespace sconce {
 namespace {
 
-using Names = std::vector<std::string>;
-
-class PixelLamps : public testing::Test {
+class PixelLamps : public Relight {
  protected:
-  TemporaryFolder folder;
-  const std::string package = (folder / "room.sconce").string();
-
-  static test::Outcome run(Names words, const Names& more = {}) {
-    words.insert(words.end(), more.begin(), more.end());
-    test::Outcome outcome = test::run_sconce(words);
+  static test::Outcome run(const Names& words, const Names& more = {}) {
+    test::Outcome outcome = Relight::run(words, more);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome;
   }
-  std::string file(const std::string& name) const { return (folder / name).string(); }
   /// The room, whose back wall and block are metal.
   void make_room(float roughness) {
     Scene scene = test::two_lamp_room();

@@ -60,12 +60,6 @@ Id<LightGroup> find_group(const Scene& scene, const std::string& name) {
   return Id<LightGroup>(static_cast<std::size_t>(it - known.begin()));
 }
 
-Vec3 middle_of(const Lamps& lamps, std::span<const std::size_t> some) {
-  Vec3 sum(0);
-  for (const std::size_t i : some) sum += place_of(lamps.all()[i]).value_or(Vec3(0));
-  return sum / static_cast<float>(some.size());
-}
-
 /// Without the lamps that shine as something else.
 std::vector<MovedGroup> without(std::vector<MovedGroup> groups, const Lamps& lamps,
                                 std::span<const std::size_t> others) {

@@ -172,22 +172,12 @@ TEST(Bounces, Furnace) {
   EXPECT_EQ(bounce(rows, rig.cloud, once, 1), once);
 }
 
-/// White, with a red and a green block, lit by two bulbs, a group each.
+/// Lit by two bulbs, a group each.
 struct ColouredRoom : Rig {
-  static Scene scene_of_it() {
-    Scene scene;
-    const auto white = add_material(scene, "white", Rgb(0.7f)),
-               red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f)),
-               green = add_material(scene, "green", Rgb(0.1f, 0.6f, 0.1f));
-    add_box(scene, "room", white, Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
-    add_box(scene, "red", red, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
-    add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
-    return scene;
-  }
   std::vector<float> direct;  ///< samples x 3 groups, lux
   static constexpr std::size_t kGroups = 2;
 
-  ColouredRoom() : Rig(scene_of_it(), 900) {
+  ColouredRoom() : Rig(coloured_room(), 900) {
     const Vec3 bulbs[kGroups] = {Vec3(-0.5f, 1.6f, 0.2f), Vec3(0.7f, 0.4f, 0.6f)};
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const SurfacePoint p = cloud.footprint(i).sample(Vec2(0.5f));

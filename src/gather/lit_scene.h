@@ -5,8 +5,21 @@
 #include "light/lamp.h"
 #include "receive/atlas.h"
 #include "scene/groups.h"
+#include "scene/shapes.h"
 
 namespace sconce {
+
+/// White, with a red and a green block; dark.
+inline Scene coloured_room() {
+  Scene scene;
+  const auto white = add_material(scene, "white", Rgb(0.7f)),
+             red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f)),
+             green = add_material(scene, "green", Rgb(0.1f, 0.6f, 0.1f));
+  add_box(scene, "room", white, Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
+  add_box(scene, "red", red, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
+  add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
+  return scene;
+}
 
 /// Members refer to each other, so it stays where it is.
 struct LitScene {

@@ -10,21 +10,14 @@
 #include "relight/operator_start.h"
 #include "relight/row_maker.h"
 #include "relight/texel_light.h"
-#include "scene/shapes.h"
 #include "transfer/folded_bounces.h"
 
 namespace sconce {
 namespace {
 
-/// White, with a red and a green block, lit by a bulb and a spot, a group each.
-Scene coloured_room() {
-  Scene scene;
-  const auto white = add_material(scene, "white", Rgb(0.7f)),
-             red = add_material(scene, "red", Rgb(0.7f, 0.1f, 0.1f)),
-             green = add_material(scene, "green", Rgb(0.1f, 0.6f, 0.1f));
-  add_box(scene, "room", white, Vec3(-1, 0, -1), Vec3(1, 2, 1), true);
-  add_box(scene, "red", red, Vec3(0.1f, 0, -0.6f), Vec3(0.6f, 0.8f, -0.1f), false);
-  add_box(scene, "green", green, Vec3(-0.9f, 0, -0.9f), Vec3(-0.3f, 1.2f, -0.5f), false);
+/// By a bulb and a spot, a group each.
+Scene lit_room() {
+  Scene scene = coloured_room();
   Light bulb;
   bulb.name = bulb.group_name = "bulb";
   bulb.intensity = Rgb(100, 80, 60);
@@ -44,7 +37,7 @@ struct Room : LitAtlas {
   RelightReceivers receivers;
   Operator op;
 
-  Room() : LitAtlas(coloured_room(), Grouping::automatic, 32) {
+  Room() : LitAtlas(lit_room(), Grouping::automatic, 32) {
     params.method = TransferMethod::exact;
     params.gather = 1024, params.rays = 128;
     receivers = texel_receivers(traced(), atlas);

@@ -82,14 +82,17 @@ LampMove find_lamps(const Scene& scene, const Lamps& lamps, const std::string& n
   return move;
 }
 
+Vec3 middle_of(const Lamps& lamps, std::span<const std::size_t> some) {
+  Vec3 sum(0);
+  for (const std::size_t i : some) sum += place_of(lamps.all()[i]).value_or(Vec3(0));
+  return sum / static_cast<float>(some.size());
+}
+
 Mat4 motion_to(const Lamps& lamps, std::span<const std::size_t> some, const LampPlace& to,
                const std::string& name, const std::string& option) {
-  Vec3 sum(0);
   std::optional<Vec3> axis;
-  for (const std::size_t i : some) {
-    sum += place_of(lamps.all()[i]).value_or(Vec3(0));
+  for (const std::size_t i : some)
     if (!axis) axis = axis_of(lamps.all()[i]);
-  }
   Mat4 turn(1.0f);
   if (to.target) {
     if (!axis) throw UsageError(option, "'" + name + "' shines all around", "a target for lamps that point");
@@ -98,8 +101,7 @@ Mat4 motion_to(const Lamps& lamps, std::span<const std::size_t> some, const Lamp
       throw UsageError(option, "'" + name + "' would stand on its target", "two places");
     turn = turning(glm::normalize(*axis), glm::normalize(direction));
   }
-  const Vec3 middle = sum / static_cast<float>(some.size());
-  return glm::translate(Mat4(1.0f), to.position) * turn * glm::translate(Mat4(1.0f), -middle);
+  return glm::translate(Mat4(1.0f), to.position) * turn * glm::translate(Mat4(1.0f), -middle_of(lamps, some));
 }
 
 LampMove find_move(const Scene& scene, const Lamps& lamps, const std::string& name, const LampPlace& to,

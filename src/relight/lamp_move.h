@@ -32,6 +32,9 @@ std::optional<Vec3> axis_of(const Lamp& lamp);
 /// what shines from everywhere.
 std::vector<std::string> lamp_names(const Lamps& lamps);
 
+/// Of the places of some lamps. @pre there are some
+Vec3 middle_of(const Lamps& lamps, std::span<const std::size_t> some);
+
 /// These lamps go to a place together, and the first that points anywhere points to the target.
 /// @param name    of them, for errors
 /// @param option  that asked for it

@@ -64,16 +64,12 @@ MovedObjects::MovedObjects(const Package& package, const View& home, const Progr
 
 void MovedObjects::place(const ObjectMoves& moves, const std::string& where) {
   for (const auto& [name, by] : moves) middle_of_object(view_, name, where);
-  const auto boxes = [&] {
-    for (const auto& [name, by] : moves)
-      boxes_.push_back(widened(object_bounds(view_.scene(), view_.world(), name),
-                               1e-4f * home_.world().bounds.diagonal()));
-  };
   boxes_.clear();
-  view_.place(places_of_objects_, {});
-  boxes();
   view_.place(places_of_objects_, moves);
-  boxes();
+  for (const View* view : {&home_, static_cast<const View*>(&view_)})
+    for (const auto& [name, by] : moves)
+      boxes_.push_back(widened(object_bounds(view->scene(), view->world(), name),
+                               1e-4f * home_.world().bounds.diagonal()));
   moves_ = moves;
   for (std::size_t i = 0; i < by_.size(); ++i) {
     const auto move = moves.find(view_.scene().instances[i].name);
