@@ -10,12 +10,17 @@ namespace {
 TEST_F(Relight, ALampBecomesAnother) {
   make_room(test::two_lamp_court());
   folder.write("lamp.ies", test::kPhotometricLamp);
+  Image slide = Image::rgb(2, 2);
+  slide.set_rgb(1, 0, {1, 0.5f, 0.2f});
+  write_exr(folder.path() / "slide.exr", slide, PixelType::full);
   const std::string left = "lamp left", place = "0,1.4,0.2";
   const struct {
     std::string kind, own;
   } kKinds[] = {{"point,lumens=90,color=1,1,1", ""},
                 {"spot,outer=40,intensity=60,kelvin=3000", ",direction=0,-1,0"},
                 {"sun,direction=0.1,-1,0,intensity=90,kelvin=5500", ""},
+                {"area,size=0.4,0.2,lumens=50,kelvin=3000", ",direction=0,-1,0"},
+                {"projector,file=" + file("slide.exr") + ",lumens=50,color=1,1,1", ",direction=0,-1,0"},
                 {"luminaire,file=" + file("lamp.ies") + ",kelvin=3000", ",direction=0,-1,0"}};
   for (const auto& [kind, own] : kKinds) {
     expect_done(run(picture("relight", "became.exr",

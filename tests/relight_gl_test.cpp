@@ -134,6 +134,19 @@ TEST_F(DirectLight, PointsSpotsAndSunsOutsideTheEdgesOfShadows) {
   }
 }
 
+TEST_F(DirectLight, AProjectorAsItsRays) {
+  auto slide = std::make_shared<Image>(Image::rgb(8, 6));
+  for (std::size_t i = 0; i < slide->data.size(); ++i)
+    slide->data[i] = 0.1f + 0.9f * static_cast<float>(i % 7) / 6;
+  for (const char* fov : {"40", "130"}) {
+    SCOPED_TRACE(fov);
+    Light light =
+        parse_lights("spot,position=-0.2,1.9,0.3,target=0.3,0.3,-0.4,intensity=100", "test").lights.at(0);
+    light.shape = ProjectorLight{slide, glm::radians(std::stof(fov)), 8.0f / 6};
+    expect_alike(light);
+  }
+}
+
 TEST_F(DirectLight, ManyPatchesAreAnAreaLamp) {
   const Image rays = by_rays({}, {{Id<LightGroup>(0), Rgb(1)}}, 64);
   double before = 1;

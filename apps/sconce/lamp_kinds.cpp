@@ -17,6 +17,8 @@ namespace {
 constexpr LampKind kKinds[] = {
     {"point", "point", false, "lumens", ""},
     {"spot", "spot,inner=20,outer=35", true, "lumens", ""},
+    {"area", "area,size=0.6,0.6", true, "lumens", ""},
+    {"projector", "", true, "lumens", ".png, .jpg, .hdr"},
     {"sun", "sun,direction=-1,-2,-1,intensity=50000,kelvin=5500", true, "", ""},
     {"luminaire", "", true, "", ".ies, .ldt, .gldf, .xml"},
     {"shader", "", true, "intensity", ".glsl"},

@@ -80,7 +80,7 @@ std::vector<MovedGroup> without(std::vector<MovedGroup> groups, const Lamps& lam
 void LampWords::declare(Options& options) {
   options.option(
       "--light", &lights,
-      "a lamp: point, spot or sun, then keys as in a side file, for example "
+      "a lamp: point, spot, sun, area or projector, then keys as in a side file, for example "
       "spot,position=1,2,0,target=0,0,0,lumens=800; or luminaire,file=lamp.ldt,position=X,Y,Z: a measured "
       "one; or group,name=G: the group by transfer instead of by its layer; or "
       "shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; may be given "

@@ -106,10 +106,11 @@ LampValues::LampValues(const Context& context, const LampShader& lamp, const Lam
           known.empty() ? "none" : join(known, ", "));
     const ActiveUniform& uniform = program.uniforms()[static_cast<std::size_t>(it - known.begin())];
     if (uniform.type == GL_SAMPLER_2D) {
-      if (given.text.empty()) throw UsageError(where, "is a picture", "a file: .png, .jpg, .hdr, .exr");
-      const Image image = read_image(given.text);
+      if (given.text.empty() && !given.picture)
+        throw UsageError(where, "is a picture", "a file: .png, .jpg, .hdr, .exr");
+      const Image image = given.picture ? *given.picture : rgb_of(read_image(given.text));
       pictures_.erase(given.name);
-      pictures_.emplace(given.name, picture(context, rgb_of(image), given.text));
+      pictures_.emplace(given.name, picture(context, image, where));
       continue;
     }
     const int count = count_of(uniform.type);

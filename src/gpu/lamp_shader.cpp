@@ -17,6 +17,9 @@ constexpr std::string_view kSpot =
 constexpr std::string_view kSun =
 #include "lights/sun.glsl.h"
     ;
+constexpr std::string_view kProjector =
+#include "lights/projector.glsl.h"
+    ;
 constexpr std::string_view kPatch =
 #include "lights/patch.glsl.h"
     ;
@@ -60,13 +63,25 @@ struct Maker {
     const bool spot = p.cos_outer > -1;
     LampShader made =
         shader(lamp(), spot ? kSpot : kPoint, looking_along(p.position, p.axis), weight * p.intensity);
-    made.uniforms = {{"range", {p.range}, {}}};
+    made.uniforms = {{"range", {p.range}}};
     if (spot) {
-      made.uniforms.push_back({"inner", {degrees(p.cos_inner)}, {}});
-      made.uniforms.push_back({"outer", {degrees(p.cos_outer)}, {}});
+      made.uniforms.push_back({"inner", {degrees(p.cos_inner)}});
+      made.uniforms.push_back({"outer", {degrees(p.cos_outer)}});
       made.opening = 2 * std::acos(p.cos_outer);
       if (made.opening <= kWidestMap) made.shadow = LampShader::Shadow::map;
     }
+    made.side = side;
+    out.push_back(std::move(made));
+  }
+  void operator()(const ProjectorLamp& p) const {
+    LampShader made =
+        shader(lamp(), kProjector, looking_along(p.position, -p.to_world[2]), weight * p.intensity);
+    for (int i = 0; i < 3; ++i) made.frame[i] = glm::vec4(p.to_world[i], 0);  // which way is up counts
+    made.uniforms = {{"slide", {}, {}, p.slide},
+                     {"fov", {2 * std::atan(p.half.y) * 180 / kPi}},
+                     {"aspect", {p.half.x / p.half.y}}};
+    made.opening = 2 * std::atan(glm::length(p.half));
+    if (made.opening <= kWidestMap) made.shadow = LampShader::Shadow::map;
     made.side = side;
     out.push_back(std::move(made));
   }

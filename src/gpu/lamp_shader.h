@@ -12,11 +12,12 @@
 
 namespace sconce::gpu {
 
-/// A value for one of a shader's uniforms: numbers, or for a sampler2D a picture's file.
+/// A value for one of a shader's uniforms: numbers, or for a sampler2D a picture or its file.
 struct LampUniform {
   std::string name;
-  std::vector<float> numbers;
-  std::string text;  ///< what was given, where that is no list of numbers
+  std::vector<float> numbers{};
+  std::string text{};                              ///< what was given, where that is no list of numbers
+  std::shared_ptr<const Image> picture = nullptr;  ///< RGB, instead of a file
 };
 
 /// `vec3 light(vec3 P, vec3 N)` (gpu/lamp_head.glsl) and what is set before it is asked.
@@ -44,8 +45,8 @@ class UnknownLamp : public Error {
   using Error::Error;
 };
 
-/// Lamps that the CPU knows: points, spots and suns by themselves, meshes as `patches` small ones each. Light
-/// fields have none: NearLights.
+/// Lamps that the CPU knows: points, spots, suns and projectors by themselves, meshes as `patches` small ones
+/// each. Light fields have none: NearLights.
 /// @param chosen  number and weight of each
 /// @param side    of their maps; a quarter for patches
 /// @throws UnknownLamp: sky, measured luminaire

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+
 #include "core/error.h"
 #include "import/gltf_parts.h"
 
@@ -14,6 +16,29 @@ Mat4 rigid(const Mat4& m) {
   out[3] = glm::vec4(Vec3(m[3]), 1);
   return out;
 }
+
+namespace {
+
+/// As `export --scene` writes them (docs/side-file.md).
+ProjectorLight projector(const GltfSource& source, const tinygltf::Value& v, const std::string& place) {
+  const auto number = [&](const char* key) {
+    const double value = number_of(v, key, 0);
+    if (!(value > 0 && value <= 1 << 16))
+      throw Error(source.at(place + "." + key), "is out of range", "above 0");
+    return value;
+  };
+  const auto width = static_cast<std::size_t>(number("width")),
+             height = static_cast<std::size_t>(number("height"));
+  const auto bytes = source.view(static_cast<int>(number_of(v, "bufferView", -1)), place);
+  if (bytes.size() != width * height * sizeof(Rgb))
+    throw Error(source.at(place + ".bufferView"), "does not hold as many pixels as the slide has");
+  Image slide = Image::rgb(static_cast<int>(width), static_cast<int>(height));
+  std::memcpy(slide.data.data(), bytes.data(), bytes.size());
+  return {std::make_shared<Image>(std::move(slide)), static_cast<float>(number("yfov")),
+          static_cast<float>(number("aspect"))};
+}
+
+}  // namespace
 
 Light read_gltf_light(const GltfSource& source, int index, const GltfNode& node, const std::string& place) {
   const tinygltf::Light& l = element(source, source.model.lights, index, place);
@@ -37,6 +62,8 @@ Light read_gltf_light(const GltfSource& source, int index, const GltfNode& node,
     if (!(spot.inner >= 0 && spot.inner <= spot.outer && spot.outer > 0 && spot.outer <= kPi / 2 + 1e-5f))
       throw Error(source.at(here + ".spot"), "cone angles are out of range", "0 <= inner < outer <= pi/2");
     out.shape = spot;
+    if (l.extras.IsObject() && l.extras.Has("projector"))
+      out.shape = projector(source, l.extras.Get("projector"), here + ".extras.projector");
   } else if (l.type == "directional") {
     out.shape = SunLight{};
   } else {

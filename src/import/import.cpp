@@ -6,7 +6,7 @@
 #include "import/assimp_materials.h"
 #include "import/gltf_source.h"
 #include "import/obj_files.h"
-#include "import/side_table.h"
+#include "import/side_parts.h"
 #include "scene/validate.h"
 
 namespace fs = std::filesystem;
@@ -88,12 +88,8 @@ std::vector<fs::path> scene_files(const fs::path& path) {
       out.push_back(side->parent_path() / *name);
   };
   add_file(root.find("sky"));
-  const SideNode* luminaires = root.find("luminaire");
-  const auto* list = luminaires != nullptr ? std::get_if<SideNode::Array>(&luminaires->value) : nullptr;
-  if (list == nullptr)
-    add_file(luminaires);
-  else
-    for (const SideNode& table : *list) add_file(&table);
+  for (const char* key : {"light", "luminaire"})
+    for (const SideNode* table : side_tables(root, key)) add_file(table);
   return out;
 }
 

@@ -55,6 +55,12 @@ SideNode measured_table(const LightWords& words, const std::string& where) {
   return {std::move(table), 0};
 }
 
+SideNode light_table(const LightWords& words) {
+  SideNode::Table table{{"type", SideNode{words.type, 0}}};
+  for (const auto& [key, value] : words.values) table.push_back({key, value_of(value)});
+  return {std::move(table), 0};
+}
+
 }  // namespace
 
 LightWords split_light(std::string_view text, const std::string& where) {
@@ -73,18 +79,18 @@ LightWords split_light(std::string_view text, const std::string& where) {
 }
 
 Light parse_light(const LightWords& words, const std::string& where) {
-  SideNode::Table table{{"type", SideNode{words.type, 0}}};
-  for (const auto& [key, value] : words.values) table.push_back({key, value_of(value)});
   Scene scene;
-  apply_light({where, scene, {}}, SideNode{std::move(table), 0});
+  apply_light({where, scene, {}}, light_table(words));
   return scene.lights.at(0);
 }
 
 MoreLights parse_lights(std::string_view text, const std::string& where, const Progress& progress) {
   const LightWords words = split_light(text, where);
-  if (words.type != "luminaire") return {{parse_light(words, where)}};
   Scene scene;
-  apply_luminaire({where, scene, progress}, measured_table(words, where));
+  if (words.type == "luminaire")
+    apply_luminaire({where, scene, progress}, measured_table(words, where));
+  else
+    apply_light({where, scene, progress}, light_table(words));
   return {std::move(scene.lights), std::move(scene.luminaires)};
 }
 

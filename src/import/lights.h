@@ -23,10 +23,10 @@ struct LightWords {
 /// goes on with the value before it. @throws UsageError naming `where`
 LightWords split_light(std::string_view text, const std::string& where);
 
-/// Keys are those of [[light]]. @throws UsageError or Error naming `where` and the key
+/// A lamp without extent; keys are those of [[light]]. @throws UsageError or Error naming `where` and the key
 Light parse_light(const LightWords& words, const std::string& where);
 
-/// Such a lamp, or `luminaire,file=lamp.ldt,position=0,2.8,0`: a measured one, its keys those of
+/// Any of [[light]], or `luminaire,file=lamp.ldt,position=0,2.8,0`: a measured one, its keys those of
 /// [[luminaire]] but for rows of them, or as [[light]] calls them (position, target, lumens, kelvin).
 /// @throws UsageError or Error naming `where` and the key
 MoreLights parse_lights(std::string_view text, const std::string& where, const Progress& progress = {});

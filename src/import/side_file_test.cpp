@@ -81,6 +81,77 @@ quality = "final"
   EXPECT_NEAR(-sun.frame[2].z, -std::sqrt(0.5), 1e-6);
 }
 
+// Flux: pi x I for a panel, E x the picture's area at 1 m for a projector in white.
+TEST(SideFile, PanelsAndProjectors) {
+  Room room;
+  Image slide = Image::rgb(4, 2);
+  slide.set_rgb(1, 0, {2, 3, 4});
+  write_exr(room.folder.path() / "slide.exr", slide, PixelType::full);
+  const Scene scene = room.with(R"(
+[[light]]
+name = "panel"
+type = "area"
+size = [1.2, 0.3]
+position = [0, 2, 0]
+lumens = 1000
+[[light]]
+type = "area"
+radius = 0.25
+position = [0, 2, 0]
+target = [1, 2, 0]
+intensity = 10
+[[light]]
+name = "slide"
+type = "projector"
+file = "slide.exr"
+position = [0, 1, 3]
+direction = [0, 0, -1]
+fov = 40
+roll = 90
+lumens = 500
+[[light]]
+name = "Spot"
+type = "projector"
+file = "slide.exr"
+aspect = 1
+)");
+  ASSERT_EQ(scene.lights.size(), 4u);
+  const auto& panel = std::get<LuminaireLight>(scene.lights[1].shape);
+  const Photometry& table = scene[panel.luminaire].photometry;
+  EXPECT_NEAR(luminance(scene.lights[1].intensity), 1000 / M_PI, 0.02);
+  EXPECT_NEAR(flux(table), M_PI, 1e-4);
+  EXPECT_NEAR(intensity_at(table, 77, 60.5), std::cos(60.5 * M_PI / 180), 1e-4);
+  EXPECT_EQ(table.opening.size, Vec3(1.2f, 0.3f, 0));
+  const auto& disk = std::get<LuminaireLight>(scene.lights[2].shape);
+  EXPECT_EQ(scene[disk.luminaire].photometry.opening.shape, Opening::Shape::cylinder);
+  EXPECT_EQ(scene[disk.luminaire].photometry.opening.size, Vec3(0.5f, 0.5f, 0));
+  EXPECT_EQ(scene.lights[2].intensity, Rgb(10));
+  const auto& projector = std::get<ProjectorLight>(scene.lights[3].shape);
+  EXPECT_EQ(projector.slide->rgb_at(1, 0), Rgb(2, 3, 4));
+  EXPECT_EQ(projector.aspect, 2);
+  const double half = std::tan(20 * M_PI / 180);
+  EXPECT_NEAR(scene.lights[3].intensity.g, 500 / (4 * half * half * 2), 1e-2);
+  // Rolled to the left, as seen along the beam: its right is up.
+  EXPECT_NEAR(scene.lights[3].frame[0].y, 1, 1e-6);
+  EXPECT_EQ(std::get<ProjectorLight>(scene.lights[0].shape).aspect, 1);
+  EXPECT_EQ(scene.lights[0].intensity, Rgb(100, 50, 50));
+  const auto files = scene_files(room.folder.path() / "room.gltf");
+  EXPECT_NE(std::find(files.begin(), files.end(), room.folder.path() / "slide.exr"), files.end());
+  const std::string begin = "[[light]]\nposition = [0, 2, 0]\nintensity = 1\n";
+  EXPECT_NE(room.error(begin + "type = \"area\"\n").find("size = [width, height] or radius"),
+            std::string::npos);
+  EXPECT_NE(room.error(begin + "type = \"area\"\nsize = [1, 0]\n").find("not positive"), std::string::npos);
+  EXPECT_NE(room.error(begin + "type = \"projector\"\n").find("has no slide"), std::string::npos);
+  EXPECT_NE(room.error(begin + "type = \"projector\"\nfile = \"none.png\"\n").find("none.png"),
+            std::string::npos);
+  EXPECT_NE(room.error(begin + "type = \"spot\"\nfov = 3\n").find("fov: is for projectors only"),
+            std::string::npos);
+  slide.set_rgb(0, 0, Rgb(-1));
+  write_exr(room.folder.path() / "dark.exr", slide, PixelType::full);
+  EXPECT_NE(room.error(begin + "type = \"projector\"\nfile = \"dark.exr\"\n").find("negative"),
+            std::string::npos);
+}
+
 TEST(SideFile, OverridesOnlyWhatItNames) {
   Room room;
   const Scene scene = room.with("[[light]]\nname = \"Spot\"\nintensity = 10\ngroup = \"x\"\n");

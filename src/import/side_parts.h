@@ -28,6 +28,9 @@ std::vector<const SideNode*> side_tables(const SideNode& root, std::string_view 
 /// Before all other tables: they speak of the scene as it then stands.
 void apply_scene(const SideContext& context, const SideNode& node);
 void apply_light(const SideContext& context, const SideNode& node);
+/// The shapes `area` and `projector` of [[light]]. @throws Error with file:line
+void set_panel(const SideContext& context, const SideTable& table, Light& light);
+void set_projector(const SideContext& context, const SideTable& table, Light& light);
 void apply_luminaire(const SideContext& context, const SideNode& node);
 /// @return the direction towards the sun, also where it is below the horizon
 std::optional<Vec3> apply_sun(const SideContext& context, const SideNode& node);

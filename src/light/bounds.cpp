@@ -39,6 +39,10 @@ LampBounds make_bounds(std::span<const Lamp> lamps, float scene_radius2) {
                           axis = -l.to_world[2];
                           plane = glm::dot(axis, center) - radius;
                         },
+                        [&](const ProjectorLamp& l) {
+                          center = l.position;
+                          b.cones.push_back({i, -l.to_world[2], 1 / std::sqrt(1 + glm::dot(l.half, l.half))});
+                        },
                         [&](const NearFieldLamp& l) {
                           center = l.position + l.to_world * l.field->center();
                           radius = l.field->radius();

@@ -51,6 +51,15 @@ struct PunctualLamp {
   float range = 0;                       ///< m, 0 = infinite
   float cos_inner = -1, cos_outer = -1;  ///< -1: a point light
 };
+/// A slide, lit evenly on a screen across the axis.
+struct ProjectorLamp {
+  std::shared_ptr<const Image> slide;
+  Vec3 position;
+  Mat3 to_world{1.0f};  ///< of right, up, backwards
+  Vec2 half;            ///< of the picture at distance 1, m
+  Rgb intensity;        ///< cd along the axis where the slide is 1
+  AliasTable pixels;    ///< probability per pixel
+};
 /// Parallel light.
 struct SunLamp {
   Vec3 direction;   ///< towards the sun, unit
@@ -137,7 +146,8 @@ struct NearFieldLamp {
   float exact_below = 0;                   ///< LuminaireLight's
 };
 
-using LampShape = std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp, LuminaireLamp, NearFieldLamp>;
+using LampShape =
+    std::variant<PunctualLamp, SunLamp, SkyLamp, MeshLamp, LuminaireLamp, NearFieldLamp, ProjectorLamp>;
 
 struct Lamp {
   std::string name;

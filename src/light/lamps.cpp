@@ -6,6 +6,7 @@
 #include "light/luminaire.h"
 #include "light/mesh_lamp.h"
 #include "light/near_field.h"
+#include "light/projector.h"
 #include "light/punctual.h"
 #include "light/sky.h"
 
@@ -34,7 +35,8 @@ Lamp make_lamp(const Scene& scene, const Light& light, NearFields& fields) {
                              },
                              [&](const SunLight&) { return make_sun(light); },
                              [&](const SkyLight& s) { return make_sky(light, s); },
-                             [&](const LuminaireLight& l) { return make_measured(scene, light, l, fields); }},
+                             [&](const LuminaireLight& l) { return make_measured(scene, light, l, fields); },
+                             [&](const ProjectorLight& p) { return make_projector(light, p); }},
                     light.shape);
 }
 
@@ -68,6 +70,7 @@ bool Lamps::sample_other(std::size_t i, const Vec3& x, Vec2 u, LightSample& out)
                [&](const SkyLamp& l) { return sconce::sample(l, u, out); },
                [&](const LuminaireLamp& l) { return sconce::sample(l, x, u, out); },
                [&](const NearFieldLamp& l) { return sconce::sample(l, x, u, out); },
+               [&](const ProjectorLamp& l) { return sconce::sample(l, x, out); },
                [&](const MeshLamp& l) { return sconce::sample(l, *scene_, *world_, x, u, out); }},
       lamps_[i].shape);
 }
@@ -81,6 +84,7 @@ EmittedLight Lamps::emit(std::size_t i, Vec2 where, Vec2 whither) const {
                [&](const SkyLamp& l) { return sconce::emit(l, center, radius, where, whither); },
                [&](const MeshLamp& l) { return sconce::emit(l, *scene_, *world_, where, whither); },
                [&](const LuminaireLamp& l) { return sconce::emit(l, where, whither); },
+               [&](const ProjectorLamp& l) { return sconce::emit(l, whither); },
                [&](const NearFieldLamp& l) { return sconce::emit(l, where, whither); }},
       lamps_[i].shape);
 }

@@ -279,7 +279,19 @@ class Reader {
     return out;
   }
 
-  static Light punctual(const JsonValue& v) {
+  ProjectorLight projector(const JsonValue& v) const {
+    const auto side = [&](const char* key) { return static_cast<int>(v.at(key).integer(1, 1 << 16)); };
+    Image slide = Image::rgb(0, 0);
+    slide.width = side("width"), slide.height = side("height");
+    const std::string_view bytes = view(v.at("bufferView"));
+    if (bytes.size() != slide.pixels() * sizeof(Rgb))
+      v.at("bufferView").fail("does not hold as many pixels as the slide has");
+    slide.data.resize(3 * slide.pixels());
+    std::memcpy(slide.data.data(), bytes.data(), bytes.size());
+    return {std::make_shared<Image>(std::move(slide)), v.at("yfov").real(), v.at("aspect").real()};
+  }
+
+  Light punctual(const JsonValue& v) const {
     Light light;
     light.name = v.text("name", "");
     light.intensity = v.at("color").rgb() * v.at("intensity").real();
@@ -290,6 +302,8 @@ class Reader {
     } else if (type == "spot") {
       const JsonValue spot = v.at("spot");
       light.shape = SpotLight{spot.at("innerConeAngle").real(), spot.at("outerConeAngle").real(), range};
+      if (v.has("extras") && v.at("extras").has("projector"))
+        light.shape = projector(v.at("extras").at("projector"));
     } else if (type == "directional") {
       light.shape = SunLight{};
     } else {

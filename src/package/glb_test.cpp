@@ -107,6 +107,11 @@ Scene sample() {
     for (const float v : field.irradiance) field.color.push_back(v * static_cast<float>(i + 1));
   set_luminance(field);
   scene.luminaires.push_back({"colored.exr", table, std::make_shared<LightField>(field)});
+  Image slide = Image::rgb(3, 2);
+  for (std::size_t i = 0; i < slide.data.size(); ++i) slide.data[i] = 0.3f * static_cast<float>(i);
+  light.name = "slide";
+  light.shape = ProjectorLight{std::make_shared<Image>(slide), 0.7f, 1.25f};
+  scene.lights.push_back(light);
   light.name = "colored";
   light.shape = LuminaireLight{Id<Luminaire>(2)};
   scene.lights.push_back(light);
@@ -165,7 +170,7 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.instances[1].group_name, "b");
   EXPECT_EQ(b.instances[1].lightmap_scale, 0.5f);
   EXPECT_EQ(b.instances[2].mesh, a.instances[2].mesh);
-  ASSERT_EQ(b.lights.size(), 7u);
+  ASSERT_EQ(b.lights.size(), 8u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(b.lights[i].name, a.lights[i].name);
     EXPECT_EQ(b.lights[i].frame, a.lights[i].frame);
@@ -190,6 +195,15 @@ TEST(Glb, SceneComesBack) {
   EXPECT_EQ(b.luminaires[0].photometry.candela, a.luminaires[0].photometry.candela);
   EXPECT_EQ(b.luminaires[0].photometry.opening.size, a.luminaires[0].photometry.opening.size);
   EXPECT_EQ(b.luminaires[0].photometry.opening.shape, Opening::Shape::cylinder);
+  const auto thrown =
+      std::find_if(b.lights.begin(), b.lights.end(), [](const Light& l) { return l.name == "slide"; });
+  ASSERT_NE(thrown, b.lights.end());
+  const auto &slide = std::get<ProjectorLight>(thrown->shape),
+             &given = std::get<ProjectorLight>(a.lights[6].shape);
+  EXPECT_EQ(slide.slide->data, given.slide->data);
+  EXPECT_EQ(slide.slide->width, 3);
+  EXPECT_EQ(slide.yfov, 0.7f);
+  EXPECT_EQ(slide.aspect, 1.25f);
   const auto near =
       std::find_if(b.lights.begin(), b.lights.end(), [](const Light& l) { return l.name == "near"; });
   ASSERT_NE(near, b.lights.end());

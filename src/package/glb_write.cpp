@@ -282,6 +282,8 @@ class Writer {
       out["type"] = "spot";
       out["spot"] = {{"innerConeAngle", spot->inner}, {"outerConeAngle", spot->outer}};
       if (spot->range > 0) out["range"] = spot->range;
+    } else if (const auto* projector = std::get_if<ProjectorLight>(&light.shape)) {
+      add_projector(*projector, out);
     } else {
       out["type"] = "directional";
     }
@@ -292,6 +294,22 @@ class Writer {
     placed["extensions"][kLights] = Json::object({{"light", list.size() - 1}});
     if (!group.empty()) placed["extras"]["light_group"] = group;
     root_["nodes"].push_back(std::move(placed));
+  }
+
+  /// To others a spot that holds the picture.
+  void add_projector(const ProjectorLight& p, Json& out) {
+    const Image& slide = *p.slide;
+    if (first_not_finite(slide.data)) refuse("a projector's slide");
+    const float half = std::tan(0.5f * p.yfov);
+    out["type"] = "spot";
+    out["spot"] = {{"innerConeAngle", 0.0f},
+                   {"outerConeAngle", std::atan(half * std::hypot(1.0f, p.aspect))}};
+    out["extras"]["projector"] = {
+        {"yfov", p.yfov},
+        {"aspect", p.aspect},
+        {"width", slide.width},
+        {"height", slide.height},
+        {"bufferView", add_view(slide.data.data(), slide.data.size() * sizeof(float), 0)}};
   }
 
   void add(const Camera& camera) {

@@ -87,6 +87,11 @@ class Starts {
       const float s = std::sqrt(std::max(0.0f, 1 - c * c));
       return {place, glm::normalize(Frame(forward).to_world(Vec3(s * std::cos(phi), s * std::sin(phi), c)))};
     }
+    if (const auto* projector = std::get_if<ProjectorLight>(&light.shape)) {
+      const float half = std::tan(0.5f * projector->yfov);
+      const Vec3 local((2 * u.x - 1) * half * projector->aspect, (2 * u.y - 1) * half, -1);
+      return {place, glm::normalize(Mat3(light.frame) * local)};
+    }
     const bool sun = std::holds_alternative<SunLight>(light.shape);
     const Vec3 direction = sun ? forward : square_to_sphere(v);
     const float r = radius * std::sqrt(u.x), phi = 2 * kPi * u.y;

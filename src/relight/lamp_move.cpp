@@ -30,6 +30,7 @@ std::optional<Vec3> place_of(const Lamp& lamp) {
   if (const auto* punctual = std::get_if<PunctualLamp>(&lamp.shape)) return punctual->position;
   if (const auto* luminaire = std::get_if<LuminaireLamp>(&lamp.shape)) return luminaire->position;
   if (const auto* field = std::get_if<NearFieldLamp>(&lamp.shape)) return field->position;
+  if (const auto* projector = std::get_if<ProjectorLamp>(&lamp.shape)) return projector->position;
   if (const auto* mesh = std::get_if<MeshLamp>(&lamp.shape)) return mesh->center;
   return std::nullopt;
 }
@@ -39,6 +40,7 @@ std::optional<Vec3> axis_of(const Lamp& lamp) {
     return punctual->cos_outer > -1 ? std::optional(punctual->axis) : std::nullopt;
   if (const auto* luminaire = std::get_if<LuminaireLamp>(&lamp.shape)) return -luminaire->to_world[2];
   if (const auto* field = std::get_if<NearFieldLamp>(&lamp.shape)) return -field->to_world[2];
+  if (const auto* projector = std::get_if<ProjectorLamp>(&lamp.shape)) return -projector->to_world[2];
   if (const auto* mesh = std::get_if<MeshLamp>(&lamp.shape))
     return mesh->axis != Vec3(0) ? std::optional(mesh->axis) : std::nullopt;
   return std::nullopt;

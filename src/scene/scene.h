@@ -104,6 +104,13 @@ struct SpotLight {
   float range = 0;
 };
 struct SunLight {};
+/// A slide thrown along -z, its rows downwards from +y; Light::intensity is that of the axis where the slide
+/// is 1.
+struct ProjectorLight {
+  std::shared_ptr<const Image> slide;  ///< RGB, linear; row 0 on top
+  float yfov = 0.7f;                   ///< radians, vertical
+  float aspect = 1;                    ///< width / height of what is thrown
+};
 /// Light from infinity all around: constant, or a lat-long image (row 0 = up, centre column = -z, contract:
 /// docs/formats).
 struct SkyLight {
@@ -130,8 +137,9 @@ struct LuminaireLight {
 struct Light {
   std::string name;
   Mat4 frame{1.0f};
-  Rgb intensity;  ///< colour x strength: cd (point, spot), lux (sun), cd/m2 factor (sky), factor (luminaire)
-  std::variant<PointLight, SpotLight, SunLight, SkyLight, LuminaireLight> shape;
+  Rgb intensity;  ///< colour x strength: cd (point, spot, projector), lux (sun), cd/m2 factor (sky), factor
+                  ///< (luminaire)
+  std::variant<PointLight, SpotLight, SunLight, SkyLight, LuminaireLight, ProjectorLight> shape;
   std::string group_name;
   Id<LightGroup> group;
   std::string light_name;  ///< extras.light, as for instances

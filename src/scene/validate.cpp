@@ -185,6 +185,14 @@ class Validator {
     }
     if (const auto* measured = std::get_if<LuminaireLight>(&light.shape))
       check_id(measured->luminaire, scene_.luminaires.size(), scene_.name + ": " + what + ": luminaire");
+    if (const auto* projector = std::get_if<ProjectorLight>(&light.shape)) {
+      const bool fits = projector->slide && projector->slide->pixels() > 0 && projector->yfov > 0 &&
+                        projector->yfov < kPi && projector->aspect > 0 && finite(projector->aspect);
+      if (!fits) {
+        warn(what + ": a projector without slide, or with a field of view or aspect out of range; left out");
+        return false;
+      }
+    }
     if (auto* sky = std::get_if<SkyLight>(&light.shape)) {
       bool bad = false;
       for (float& v : sky->image.data)

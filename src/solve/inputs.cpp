@@ -78,6 +78,10 @@ void add_lamp(ContentHash& hash, const Scene& scene, const Light& light) {
     hash.value(sky->image.width).value(sky->image.height);
     add(hash, sky->image.data);
   }
+  if (const auto* projector = std::get_if<ProjectorLight>(&light.shape)) {
+    hash.value(projector->yfov).value(projector->aspect).value(projector->slide->width);
+    add(hash, projector->slide->data);
+  }
   if (const auto* measured = std::get_if<LuminaireLight>(&light.shape)) {
     const Luminaire& luminaire = scene[measured->luminaire];
     add(hash, luminaire.photometry);
