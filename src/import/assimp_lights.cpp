@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/text.h"
 #include "import/assimp_scene.h"
 #include "import/side_parts.h"
 
@@ -31,6 +32,12 @@ const Mat4& find(const AssimpNodes& nodes, const aiString& name) {
   return found != nodes.end() ? found->second : kRoot;
 }
 
+/// Whether the file lets it fade otherwise than by the square of the distance. 3DS does not say.
+bool fades_otherwise(const aiLight& l, const std::filesystem::path& file) {
+  if (l.mType == aiLightSource_DIRECTIONAL || lower(file.extension().string()) == ".3ds") return false;
+  return !(l.mAttenuationQuadratic > 0) || l.mAttenuationLinear > 0;
+}
+
 /// Full cone angles to half ones.
 SpotLight spot_of(const aiLight& l) {
   SpotLight spot;
@@ -44,6 +51,7 @@ SpotLight spot_of(const aiLight& l) {
 void read_assimp_lights(const aiScene& read, const std::filesystem::path& file, const AssimpNodes& nodes,
                         Scene& scene, const Progress& progress) {
   bool without_units = false;
+  std::vector<std::string> otherwise;
   for (unsigned i = 0; i < read.mNumLights; ++i) {
     const aiLight& l = *read.mLights[i];
     const std::string name = l.mName.C_Str();
@@ -73,6 +81,7 @@ void read_assimp_lights(const aiScene& read, const std::filesystem::path& file, 
         continue;
     }
     without_units = true;
+    if (fades_otherwise(l, file)) otherwise.push_back("'" + name + "'");
     scene.lights.push_back(std::move(out));
   }
   if (without_units)
@@ -80,6 +89,9 @@ void read_assimp_lights(const aiScene& read, const std::filesystem::path& file, 
         file.string() +
         ": its lamps have no photometric units; an intensity of 1 is taken as 683 lm (suns: 683 lx); "
         "give lumens in [[light]] where that is not meant");
+  if (!otherwise.empty())
+    progress.warn(file.string() + ": the decay of " + join(otherwise, ", ") +
+                  " is not by the square of the distance; here all light fades so");
 }
 
 void read_assimp_cameras(const aiScene& read, const AssimpNodes& nodes, Scene& scene) {

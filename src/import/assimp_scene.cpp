@@ -71,6 +71,7 @@ void read_node(const aiNode& node, const Mat4& parent, const std::vector<Id<Mesh
 const aiScene& run_assimp(Assimp::Importer& importer, const std::filesystem::path& path,
                           std::string_view format, unsigned more) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // what has no meshes gets none
   const aiScene* read =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                            aiProcess_SortByPType | aiProcess_FlipUVs | more);

@@ -32,7 +32,8 @@ Scene read_assimp(const aiScene& read, const std::filesystem::path& file, const 
 
 /// Lamps of formats that know no photometric units: an intensity of 1 is taken as 1 W at 683 lm/W, which is
 /// 54.35 cd of point and spot lamps and 683 lx of suns (as Blender's glTF export does). Area lamps become
-/// points, ambient light is left out. All that is said in warnings.
+/// points, ambient light is left out, and whatever the file says all fade by the square of the distance. All
+/// that is said in warnings.
 void read_assimp_lights(const aiScene& read, const std::filesystem::path& file, const AssimpNodes& nodes,
                         Scene& scene, const Progress& progress);
 void read_assimp_cameras(const aiScene& read, const AssimpNodes& nodes, Scene& scene);

@@ -222,7 +222,8 @@ TEST(GltfFiles, VersionsExtensionsAndOtherFormats) {
   const std::string error = error_text(b.json(body + R"(,"extensionsRequired":["KHR_no_such_thing","X_y"])"));
   EXPECT_NE(error.find("KHR_no_such_thing, X_y"), std::string::npos);
   Warnings w;
-  import_text(b.json(body + R"(,"extensionsUsed":["KHR_materials_unlit","KHR_materials_sheen"])"),
+  import_text(b.json(body + R"(,"extensionsUsed":["KHR_materials_unlit","KHR_materials_transmission",
+                             "KHR_materials_sheen"])"),
               w.progress);
   EXPECT_TRUE(w.any("ignored: KHR_materials_sheen"));
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tests/fuzz/run.sh SCONCE FUZZ_BUILD DATA RUNS [TARGET...]: one fuzz target after the other until RUNS inputs are through each, from
-# small files of ours and of DATA. Each input may take 10 s and 4 GB. What is found stays in FUZZ_BUILD/found, and its target counts
-# from 0 again. FUZZ_BUILD/counts keeps what libFuzzer has counted, in parts of 100 000: run again after a stop, it goes on from there.
-# SECONDS_EACH ends a target early. Writes bench/results/fuzz.md from the counts.
+# small files of ours and of DATA. Each input may take 4 GB and 10 s by the clock (PATIENCE=60 where others compute, too). What is found
+# stays in FUZZ_BUILD/found, and its target counts from 0 again. FUZZ_BUILD/counts keeps what libFuzzer has counted, in parts of 100 000:
+# run again after a stop, it goes on from there. SECONDS_EACH ends a target early. Writes bench/results/fuzz.md from the counts.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -133,7 +133,7 @@ for target in "${targets[@]}"; do
   begin=$SECONDS
   while [ "$inputs" -lt "$runs" ] && [ $((SECONDS - begin)) -lt "${SECONDS_EACH:-1000000}" ]; do
     part=$((runs - inputs < 100000 ? runs - inputs : 100000)) whole=1
-    "$build/tests/fuzz/fuzz_$target" -runs=$part -max_total_time="${SECONDS_EACH:-0}" -timeout=10 -rss_limit_mb=4096 \
+    "$build/tests/fuzz/fuzz_$target" -runs=$part -max_total_time="${SECONDS_EACH:-0}" -timeout=${PATIENCE:-10} -rss_limit_mb=4096 \
       -max_len=$longest -entropic_scale_per_exec_time=1 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" "$seeds/$target" \
       >"$log" 2>&1 || whole=0
     made=$(awk '$1 == "stat::number_of_executed_units:" { print $2 }' "$log")
