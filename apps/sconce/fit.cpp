@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
@@ -112,10 +112,9 @@ int run_fit(int argc, const char* const* argv) {
   }
   std::vector<double> power;
   for (const GroupInfo& group : groups) power.push_back(group.lumens);
-  const auto before = std::chrono::steady_clock::now();
+  const Stopwatch fitting;
   const Fit found = fit(wishes, power, goals.empty() ? 0 : kThrift);
-  const double milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
+  const double milliseconds = fitting.milliseconds();
   faders = with_gains(faders, found.gains);
   const Preset preset = to_preset(groups, faders);
   const std::string text = print_preset(preset);

@@ -4,9 +4,9 @@
 
 #include <imgui.h>
 
-#include <chrono>
 #include <cstdint>
 
+#include "core/stopwatch.h"
 #include "gpu/display_pass.h"
 #include "mix/mix.h"
 
@@ -15,16 +15,6 @@ namespace sconce::viewer {
 inline ImTextureID id_of(const gpu::Texture& texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture.handle()));
 }
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 class Screen {
  public:

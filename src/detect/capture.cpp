@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace sconce {
 
@@ -60,11 +59,10 @@ Captured capture_once(const HostRenderer& host, const TextureSpace& space, DrawR
   if (!host.draw) throw Error(of_renderer(what), "there is no renderer");
   request.width = space.width, request.height = space.height;
   request.triangles = space.triangles, request.corners = space.corners;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch drawing_time;
   const Drawing drawing = call(host, request, what);
   Captured out;
-  out.cost = {1, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
-              drawing.read_milliseconds};
+  out.cost = {1, drawing_time.milliseconds(), drawing.read_milliseconds};
 
   if (drawing.width != space.width || drawing.height != space.height)
     throw Error(of_renderer(what), fmt::format("has {} x {} pixels", drawing.width, drawing.height),

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 
 namespace sconce {
 
@@ -212,7 +213,7 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   }
   report.capture = direct.cost;
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch solving;
   // What is drawn has its reflectance and its emission in it already: it is all that leaves the surface.
   std::vector<Rgbx> light(op.slots());
   std::atomic<std::size_t> clipped = 0;
@@ -234,9 +235,6 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   });
   report.clipped = clipped;
   now_->bounces->apply(light);
-  const auto passed = [&] {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  };
   if (budget.receivers >= indirect_.size() && !(budget.milliseconds < 1e30)) {
     multiply(op.gather, light, indirect_);
     gradual_.reset();
@@ -249,7 +247,7 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
       const std::size_t before = gradual_->left();
       gradual_->refine(lit_, std::min(left, step), indirect_);
       left -= std::min(left, before - gradual_->left());
-      if (left < op.gather.cluster || passed() > budget.milliseconds) break;
+      if (left < op.gather.cluster || solving.milliseconds() > budget.milliseconds) break;
     }
     report.coarse = gradual_->left();
   }
@@ -258,7 +256,7 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
     ambient_[op.places[i]] = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
   }
   for (const Copy& copy : copies_) ambient_[copy.to] = ambient_[copy.from];
-  report.solve_milliseconds = passed();
+  report.solve_milliseconds = solving.milliseconds();
   return report;
 }
 
