@@ -2,19 +2,16 @@
 #include "glue.h"
 
 #include <GL/gl.h>
+#include <OgreRTShaderSystem.h>
 #include <OgreShaderFFPRenderState.h>
-#include <OgreShaderFunction.h>
-#include <OgreShaderGenerator.h>
 #include <OgreShaderProgram.h>
-#include <OgreShaderProgramSet.h>
-#include <OgreShaderRenderState.h>
-#include <OgreShaderSubRenderState.h>
 
-#include <chrono>
+#include <glm/gtc/type_ptr.hpp>
 #include <numeric>
-#include <utility>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
+#include "detect/vertex_buffer.h"
 
 using namespace sconce;
 namespace shader = Ogre::RTShader;
@@ -48,12 +45,8 @@ class PlaceFactory : public shader::SubRenderStateFactory {
   shader::SubRenderState* createInstanceImpl() override { return OGRE_NEW PlaceState; }
 };
 
-Vec3 vec(const Ogre::Vector3& v) {
-  return {v.x, v.y, v.z};
-}
-
-std::vector<unsigned char> bytes_of(Ogre::HardwareBuffer& buffer) {
-  std::vector<unsigned char> bytes(buffer.getSizeInBytes());
+BufferBytes bytes_of(Ogre::HardwareBuffer& buffer) {
+  BufferBytes bytes(buffer.getSizeInBytes());
   buffer.readData(0, bytes.size(), bytes.data());
   return bytes;
 }
@@ -63,50 +56,52 @@ std::vector<Vec3> vectors(const Ogre::VertexData& data, Ogre::VertexElementSeman
   const Ogre::VertexElement* element = data.vertexDeclaration->findElementBySemantic(semantic);
   if (element == nullptr || element->getType() != Ogre::VET_FLOAT3) return {};
   const auto buffer = data.vertexBufferBinding->getBuffer(element->getSource());
-  const std::vector<unsigned char> bytes = bytes_of(*buffer);
-  std::vector<Vec3> values(data.vertexCount);
-  for (std::size_t v = 0; v < values.size(); ++v)
-    std::memcpy(&values[v], &bytes[v * buffer->getVertexSize() + element->getOffset()], sizeof(Vec3));
-  return values;
+  return read_vectors(bytes_of(*buffer), buffer->getVertexSize(), element->getOffset());
 }
 
-std::vector<uint32_t> triangle_corners(const Ogre::IndexData& data, std::size_t vertices) {
-  std::vector<uint32_t> corners(data.indexCount > 0 ? data.indexCount : vertices);
-  std::iota(corners.begin(), corners.end(), static_cast<uint32_t>(data.indexStart));
-  if (data.indexCount == 0) return corners;
-  const std::vector<unsigned char> bytes = bytes_of(*data.indexBuffer);
-  const std::size_t size = data.indexBuffer->getIndexSize();  // 2 or 4, little end first
-  for (uint32_t& corner : corners) std::memcpy(&corner, &bytes[std::exchange(corner, 0u) * size], size);
+/// Vertices of the buffers, one for each corner.
+std::vector<uint32_t> triangle_corners(const Ogre::IndexData& data, const Ogre::VertexData& vertices) {
+  std::vector<uint32_t> corners(vertices.vertexCount);
+  std::iota(corners.begin(), corners.end(), 0u);
+  if (data.indexCount > 0) {
+    const auto all = read_indices(bytes_of(*data.indexBuffer), data.indexBuffer->getIndexSize());
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(data.indexStart);
+    corners.assign(first, first + static_cast<std::ptrdiff_t>(data.indexCount));
+  }
+  for (uint32_t& corner : corners) corner += static_cast<uint32_t>(vertices.vertexStart);
   return corners;
 }
 
-/// The same vertices, one for each corner, with two more pairs of coordinates in a buffer of their own.
-Ogre::HardwareVertexBufferSharedPtr expand(Ogre::SubMesh& mesh, const Ogre::VertexData& from) {
-  auto& manager = Ogre::HardwareBufferManager::getSingleton();
-  const std::vector<uint32_t> corners = triangle_corners(*mesh.indexData, from.vertexCount);
+/// The same vertices, one for each corner.
+Ogre::VertexData& expand(Ogre::SubMesh& mesh, const Ogre::VertexData& from) {
+  const std::vector<uint32_t> corners = triangle_corners(*mesh.indexData, from);
   Ogre::VertexData* data = from.clone(false);
   data->vertexStart = 0, data->vertexCount = corners.size();
   for (const auto& [source, buffer] : from.vertexBufferBinding->getBindings()) {
-    const std::size_t size = buffer->getVertexSize();
-    const std::vector<unsigned char> old = bytes_of(*buffer);
-    std::vector<unsigned char> bytes(corners.size() * size);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      std::memcpy(&bytes[i * size], &old[(from.vertexStart + corners[i]) * size], size);
-    const auto expanded = manager.createVertexBuffer(size, corners.size(), Ogre::HardwareBuffer::HBU_STATIC);
+    const BufferBytes bytes = vertex_per_index(bytes_of(*buffer), buffer->getVertexSize(), corners);
+    const auto expanded = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+        buffer->getVertexSize(), corners.size(), Ogre::HardwareBuffer::HBU_STATIC);
     expanded->writeData(0, bytes.size(), bytes.data(), true);
     data->vertexBufferBinding->setBinding(source, expanded);
   }
-  const auto added =
-      manager.createVertexBuffer(2 * sizeof(Vec2), corners.size(), Ogre::HardwareBuffer::HBU_DYNAMIC);
-  const unsigned short next = data->vertexDeclaration->getMaxSource() + 1;
-  for (const unsigned short set : {kLight, kPlace})
-    data->vertexDeclaration->addElement(next, (set - kLight) * sizeof(Vec2), Ogre::VET_FLOAT2,
-                                        Ogre::VES_TEXTURE_COORDINATES, set);
-  data->vertexBufferBinding->setBinding(next, added);
   mesh.useSharedVertices = false;
   mesh.vertexData = data;
   mesh.indexData->indexCount = 0;  // drawn without indices
+  return *data;
+}
+
+/// One more pair of texture coordinates.
+Ogre::HardwareVertexBufferSharedPtr add_coordinates(Ogre::VertexData& data, unsigned short set) {
+  const auto added = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+      sizeof(Vec2), data.vertexCount, Ogre::HardwareBuffer::HBU_DYNAMIC);
+  const unsigned short next = data.vertexDeclaration->getMaxSource() + 1;
+  data.vertexDeclaration->addElement(next, 0, Ogre::VET_FLOAT2, Ogre::VES_TEXTURE_COORDINATES, set);
+  data.vertexBufferBinding->setBinding(next, added);
   return added;
+}
+
+void write(Ogre::HardwareVertexBuffer& buffer, const std::vector<Vec2>& values) {
+  buffer.writeData(0, values.size() * sizeof(Vec2), values.data(), true);
 }
 
 /// A material to draw faces with.
@@ -117,6 +112,16 @@ Ogre::MaterialPtr for_faces(const Ogre::MaterialPtr& material) {
       *material, Ogre::MaterialManager::DEFAULT_SCHEME_NAME, kScheme);
   return material;
 }
+
+auto colours(const Ogre::Pass& pass) {
+  return std::tuple(pass.getDiffuse(), pass.getSpecular(), pass.getShininess(), pass.getSelfIllumination());
+}
+
+template <class F>
+struct AtEnd {
+  F f;
+  ~AtEnd() { f(); }
+};
 
 }  // namespace
 
@@ -149,12 +154,8 @@ OgreRadiosity::OgreRadiosity(Ogre::SceneManager& scene, const std::string& schem
       "sconce_light", kGroup, Ogre::TEX_TYPE_2D, static_cast<unsigned>(space.width),
       static_cast<unsigned>(space.height), 0, Ogre::PF_FLOAT32_RGB, Ogre::TU_DYNAMIC_WRITE_ONLY);
   const PartCorners coordinates = map_.coordinates();
-  for (std::size_t p = 0; p < parts_.size(); ++p)
-    for (const Vec2& at : coordinates[p]) parts_[p].corners.push_back({at, Vec2(2)});
-
-  TransferParams params;
-  params.gather = 4096, params.rays = 256, params.lights = 128;
-  map_.start({[this](const DrawRequest& request) { return draw(request); }}, params);
+  for (std::size_t p = 0; p < parts_.size(); ++p) write(*parts_[p].coordinates, coordinates[p]);
+  map_.start({[this](const DrawRequest& request) { return draw(request); }});
   show(false);
   for (const auto& [own, paint] : paints_) {  // after the copies that faces are drawn with were made
     Ogre::TextureUnitState* unit =
@@ -178,22 +179,19 @@ Scene OgreRadiosity::collect() {
 }
 
 void OgreRadiosity::take(Ogre::Entity& entity, Scene& out) {
-  const Ogre::Affine3& place = entity.getParentSceneNode()->_getFullTransform();
-  const Ogre::Matrix3 turned = place.linear().Inverse().Transpose();
+  const Ogre::Matrix4 place(entity.getParentSceneNode()->_getFullTransform());
   for (std::size_t s = 0; s < entity.getNumSubEntities(); ++s) {
-    Part part;
-    part.entity = entity.getSubEntity(s);
+    Part part{entity.getSubEntity(s), nullptr, {}, {}};
     Ogre::SubMesh& sub = *part.entity->getSubMesh();
-    const Ogre::VertexData& data =
+    const Ogre::VertexData& own =
         sub.useSharedVertices ? *entity.getMesh()->sharedVertexData : *sub.vertexData;
     if (sub.operationType != Ogre::RenderOperation::OT_TRIANGLE_LIST ||
-        vectors(data, Ogre::VES_NORMAL).empty() ||
-        data.vertexDeclaration->findElementBySemantic(Ogre::VES_TEXTURE_COORDINATES, kLight) != nullptr)
+        vectors(own, Ogre::VES_NORMAL).empty() ||
+        own.vertexDeclaration->findElementBySemantic(Ogre::VES_TEXTURE_COORDINATES, kLight) != nullptr)
       throw Error(entity.getName(), "cannot be taken",
                   "triangle lists with normals, at most one pair of coordinates and a mesh for each entity");
-    part.buffer = expand(sub, data);
-    std::vector<Vec3> positions = vectors(*sub.vertexData, Ogre::VES_POSITION),
-                      normals = vectors(*sub.vertexData, Ogre::VES_NORMAL);
+    Ogre::VertexData& data = expand(sub, own);
+    part.coordinates = add_coordinates(data, kLight), part.places = add_coordinates(data, kPlace);
     const auto [it, added] =
         paints_.try_emplace(part.entity->getMaterial(), Paint{Id<Material>(out.materials.size()), nullptr});
     if (added) {
@@ -201,9 +199,8 @@ void OgreRadiosity::take(Ogre::Entity& entity, Scene& out) {
       it->second.bare = for_faces(it->first->clone("sconce_" + name));
     }
     part.paint = &*it;
-    for (Vec3& p : positions) p = vec(place * Ogre::Vector3(&p.x));
-    for (Vec3& n : normals) n = vec(turned * Ogre::Vector3(&n.x));
-    add_part(out, it->second.id, std::move(positions), std::move(normals));
+    add_part(out, it->second.id, vectors(data, Ogre::VES_POSITION), vectors(data, Ogre::VES_NORMAL),
+             glm::transpose(glm::make_mat4(place[0])));
     parts_.push_back(std::move(part));
   }
 }
@@ -211,10 +208,8 @@ void OgreRadiosity::take(Ogre::Entity& entity, Scene& out) {
 void OgreRadiosity::follow_materials() {
   bool changed = false;
   for (const auto& [own, paint] : paints_) {
-    const Ogre::Pass &is = *own->getTechnique(0)->getPass(0), &was = *paint.bare->getTechnique(0)->getPass(0);
-    if (is.getDiffuse() == was.getDiffuse() && is.getSpecular() == was.getSpecular() &&
-        is.getShininess() == was.getShininess() && is.getSelfIllumination() == was.getSelfIllumination())
-      continue;
+    const Ogre::Pass& is = *own->getTechnique(0)->getPass(0);
+    if (colours(is) == colours(*paint.bare->getTechnique(0)->getPass(0))) continue;
     changed = true;
     paint.bare->setDiffuse(is.getDiffuse());
     paint.bare->setSpecular(is.getSpecular());
@@ -259,32 +254,19 @@ Drawing OgreRadiosity::draw(const DrawRequest& request) {
   for (const auto& [name, light] : scene_.getMovableObjects("Light"))
     lights.emplace_back(light, light->getVisible());
   const Ogre::ColourValue ambient = scene_.getAmbientLight();
-  const auto restore = [&] {
+  const AtEnd restore{[&] {
     scene_.setAmbientLight(ambient);
     for (const auto& [light, visible] : lights) light->setVisible(visible);
     for (Part& part : parts_) part.entity->setMaterial(part.paint->first);
-  };
-  try {
-    scene_.setAmbientLight(Ogre::ColourValue::Black);
-    if (request.lights != DrawRequest::Lights::all)
-      for (const auto& [light, visible] : lights) light->setVisible(false);
-    probe_->setVisible(request.lights == DrawRequest::Lights::probe);
-    Drawing drawing = draw_faces(request);
-    restore();
-    return drawing;
-  } catch (...) {
-    restore();
-    throw;
-  }
-}
-
-Drawing OgreRadiosity::draw_faces(const DrawRequest& request) {
-  const PartCorners places = map_.places(request);
+  }};
+  scene_.setAmbientLight(Ogre::ColourValue::Black);
+  if (request.lights != DrawRequest::Lights::all)
+    for (const auto& [light, visible] : lights) light->setVisible(false);
+  probe_->setVisible(request.lights == DrawRequest::Lights::probe);
+  const PartCorners places = map_.clip_places(request);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    Part& part = parts_[p];
-    for (std::size_t i = 0; i < part.corners.size(); ++i) part.corners[i][1] = 2.0f * places[p][i] - 1.0f;
-    part.buffer->writeData(0, part.corners.size() * sizeof part.corners[0], part.corners.data(), true);
-    part.entity->setMaterial(request.white_card ? white_ : part.paint->second.bare);
+    write(*parts_[p].places, places[p]);
+    parts_[p].entity->setMaterial(request.white_card ? white_ : parts_[p].paint->second.bare);
   }
   const Vec3& to = request.probe.to_light;
   probe_->setDiffuseColour(Ogre::ColourValue::White * request.probe.intensity);
@@ -297,11 +279,10 @@ Drawing OgreRadiosity::draw_faces(const DrawRequest& request) {
   render->getViewport(0)->setBackgroundColour(Ogre::ColourValue::White * request.background);
   render->update();
   glFinish();  // what comes now is reading back
-  const auto drawn = std::chrono::steady_clock::now();
+  const Stopwatch reading;
   Drawing drawing{request.width, request.height, std::vector<float>(3 * request.pixels()), {}};
   target_->getBuffer()->blitToMemory(
       {target_->getWidth(), target_->getHeight(), 1, Ogre::PF_FLOAT32_RGB, drawing.values.data()});
-  drawing.read_milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - drawn).count();
+  drawing.read_milliseconds = reading.milliseconds();
   return drawing;
 }

@@ -35,15 +35,13 @@ class OgreRadiosity {
   struct Part {
     Ogre::SubEntity* entity;
     const Paints::value_type* paint;
-    std::vector<std::array<sconce::Vec2, 2>> corners;  ///< in the ambient map; in the drawing, from -1 to 1
-    Ogre::HardwareVertexBufferSharedPtr buffer;        ///< of them
+    Ogre::HardwareVertexBufferSharedPtr coordinates, places;  ///< in the ambient map, in the drawing
   };
 
   void follow_materials();
   sconce::Scene collect();
   void take(Ogre::Entity& entity, sconce::Scene& out);
   sconce::Drawing draw(const sconce::DrawRequest& request);
-  sconce::Drawing draw_faces(const sconce::DrawRequest& request);
   void set_target(unsigned width, unsigned height);
 
   Ogre::SceneManager& scene_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glue.h"
 
-#include <chrono>
+#include <glm/gtc/type_ptr.hpp>
 #include <osg/Program>
 #include <osg/Shader>
 #include <osg/TriangleIndexFunctor>
 #include <set>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "shader/vertex_override.h"
 
 using namespace sconce;
@@ -16,6 +17,10 @@ namespace {
 
 constexpr unsigned kPlace = 7;              // vertex attribute that compatibility profiles leave free
 constexpr unsigned kScene = 1, kFaces = 2;  // node masks: what the screen shows, what textures show
+
+Vec3 vec(const osg::Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 struct Triples {
   std::vector<unsigned> indices;
@@ -41,14 +46,12 @@ osg::ref_ptr<osg::Array> expanded_any(osg::Array* from, const std::vector<unsign
               "Vec2Array, Vec3Array, Vec4Array, Vec4ubArray");
 }
 
-using Clock = std::chrono::steady_clock;
-
 /// The last that is drawn: what comes after it is reading back.
 class Drawn : public osg::Drawable {
  public:
   Drawn() { setCullingActive(false), getOrCreateStateSet()->setRenderBinDetails(1000, "RenderBin"); }
-  void drawImplementation(osg::RenderInfo&) const override { glFinish(), at = Clock::now(); }
-  mutable Clock::time_point at;
+  void drawImplementation(osg::RenderInfo&) const override { glFinish(), since = {}; }
+  mutable Stopwatch since;
 };
 
 void set(osg::Vec2Array& array, const std::vector<Vec2>& values) {
@@ -76,19 +79,16 @@ class OsgRadiosity::Collector : public osg::NodeVisitor {
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(geometry.getNormalArray());
     if (positions == nullptr || normals == nullptr || normals->empty())
       throw Error(geometry.getName(), "has no Vec3Array of vertices and of normals");
-    const osg::Matrix world = osg::computeLocalToWorld(getNodePath());
-    const osg::Matrix turned = osg::Matrix::inverse(world);
     std::vector<Vec3> corners, corner_normals;
     osg::TriangleIndexFunctor<Triples> triples;
     geometry.accept(triples);
     for (const unsigned v : triples.indices) {
-      const osg::Vec3 p = (*positions)[v] * world;
-      corners.emplace_back(p.x(), p.y(), p.z());
-      const osg::Vec3 n = osg::Matrix::transform3x3(
-          turned, (*normals)[std::min(v, static_cast<unsigned>(normals->size()) - 1)]);
-      corner_normals.emplace_back(n.x(), n.y(), n.z());
+      corners.push_back(vec((*positions)[v]));
+      corner_normals.push_back(vec((*normals)[std::min(v, static_cast<unsigned>(normals->size()) - 1)]));
     }
-    add_part(out_.scene_, material(), std::move(corners), std::move(corner_normals));
+    const osg::Matrixf world(osg::computeLocalToWorld(getNodePath()));
+    add_part(out_.scene_, material(), std::move(corners), std::move(corner_normals),
+             glm::make_mat4(world.ptr()));
     expand(geometry, triples.indices);
   }
 
@@ -168,9 +168,7 @@ OsgRadiosity::OsgRadiosity(osgViewer::Viewer& viewer, osg::Group& root, osg::Nod
   for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
     ambient_map_->setFilter(filter, osg::Texture::LINEAR);
 
-  TransferParams params;
-  params.gather = 4096, params.rays = 256, params.lights = 128;
-  map_->start({[this](const DrawRequest& request) { return draw(request); }}, params);
+  map_->start({[this](const DrawRequest& request) { return draw(request); }});
 }
 
 FrameReport OsgRadiosity::update() {
@@ -224,7 +222,6 @@ Drawing OsgRadiosity::draw(const DrawRequest& request) {
   const auto* rgba = reinterpret_cast<const float*>(t.image->data());
   for (std::size_t i = 0; i < request.pixels(); ++i)
     drawing.values.insert(drawing.values.end(), rgba + 4 * i, rgba + 4 * i + 3);
-  const auto drawn = static_cast<const Drawn&>(*t.drawn).at;
-  drawing.read_milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - drawn).count();
+  drawing.read_milliseconds = static_cast<const Drawn&>(*t.drawn).since.milliseconds();
   return drawing;
 }

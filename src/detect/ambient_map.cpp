@@ -15,16 +15,25 @@ constexpr int kRings = 3;  // of texels around a face
 
 }  // namespace
 
-void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals) {
+void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals,
+              const Mat4& place) {
   Mesh mesh;
   mesh.material = material;
   for (uint32_t v = 0; v + 2 < positions.size(); v += 3) mesh.triangles.push_back({{v, v + 1, v + 2}});
-  for (Vec3& n : normals) n = normalize_or(n, Vec3(0, 0, 1));
+  const Mat3 turned = glm::transpose(glm::inverse(Mat3(place)));
+  for (Vec3& p : positions) p = Vec3(place * glm::vec4(p, 1));
+  for (Vec3& n : normals) n = normalize_or(turned * n, Vec3(0, 0, 1));
   mesh.positions = std::move(positions), mesh.normals = std::move(normals);
   Instance instance;
   instance.mesh = Id<Mesh>(scene.meshes.size());
   scene.meshes.push_back(std::move(mesh));
   scene.instances.push_back(std::move(instance));
+}
+
+TransferParams quick_transfer() {
+  TransferParams params;
+  params.gather = 4096, params.rays = 256, params.lights = 128;
+  return params;
 }
 
 AmbientMap::AmbientMap(Scene scene, float density)
@@ -53,6 +62,13 @@ PartCorners AmbientMap::coordinates() const {
 
 PartCorners AmbientMap::places(const DrawRequest& request) const {
   return corners(request.triangles, request.corners, Vec2(request.width, request.height), Vec2(2));
+}
+
+PartCorners AmbientMap::clip_places(const DrawRequest& request) const {
+  PartCorners parts = places(request);
+  for (std::vector<Vec2>& part : parts)
+    for (Vec2& at : part) at = 2.0f * at - 1.0f;
+  return parts;
 }
 
 void AmbientMap::start(const HostRenderer& host, TransferParams params, const Progress& progress,

@@ -12,9 +12,14 @@ namespace sconce {
 using PartCorners = std::vector<std::vector<Vec2>>;
 
 /// Adds what the renderer draws at once: a mesh and its instance.
-/// @param positions  in the world, three per face
+/// @param positions  three per face
 /// @param normals    as many, of any length
-void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals);
+/// @param place      of both in the world
+void add_part(Scene& scene, Id<Material> material, std::vector<Vec3> positions, std::vector<Vec3> normals,
+              const Mat4& place = Mat4(1));
+
+/// An operator that rooms have after a few seconds.
+TransferParams quick_transfer();
 
 class AmbientMap {
  public:
@@ -31,13 +36,16 @@ class AmbientMap {
   PartCorners coordinates() const;
   /// Where a drawing wants the vertices, 0 to 1; those of faces that it does not want lie at 2, outside.
   PartCorners places(const DrawRequest& request) const;
+  /// The same as positions in clip space, -1 to 1, for renderers whose shaders are not rewritten but
+  /// extended.
+  PartCorners clip_places(const DrawRequest& request) const;
 
   /// Asks the renderer for its materials and follows rays, once.
   /// @param params  their sums are kept whatever they say: even light stays exact
   /// @param look    how materials are detected
   /// @throws Error, UsageError, Cancelled as detect_materials() and make_operator()
-  void start(const HostRenderer& host, TransferParams params, const Progress& progress = {},
-             const DetectParams& look = {});
+  void start(const HostRenderer& host, TransferParams params = quick_transfer(),
+             const Progress& progress = {}, const DetectParams& look = {});
 
   /// Looks at the materials again, after the renderer changed them: without rays. @pre started
   /// @throws Error, Cancelled: then the old ones stay

@@ -73,9 +73,25 @@ TEST(AmbientMap, VerticesOfParts) {
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[0], std::vector<Vec2>(3, Vec2(2)));
   EXPECT_EQ(places[1], (std::vector<Vec2>{Vec2(2), Vec2(2), Vec2(2), Vec2(0), Vec2(1, 0), Vec2(0, 0.25f)}));
+  const PartCorners clip = map.clip_places(request);
+  EXPECT_EQ(clip[0], std::vector<Vec2>(3, Vec2(3)));
+  EXPECT_EQ(clip[1][3], Vec2(-1));
+  EXPECT_EQ(clip[1][4], Vec2(1, -1));
   // The two faces of the second part meet in the texture, too.
   EXPECT_EQ(coordinates[1][0], coordinates[1][3]);
   EXPECT_EQ(coordinates[1][2], coordinates[1][4]);
+}
+
+// A place that turns z to x and stretches x by two: what is along the slope of a face stays at right angles
+// to its normal.
+TEST(AmbientMap, PartsHavePlaces) {
+  Scene scene;
+  const Id<Material> grey = add_material(scene, "grey", Rgb(0.2f));
+  const Mat4 place{{0, 0, 2, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {5, 0, 0, 1}};
+  add_part(scene, grey, {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}}, std::vector<Vec3>(3, {-1, 0, 1}), place);
+  EXPECT_EQ(scene.meshes[0].positions[1], Vec3(6, 0, 2));
+  EXPECT_NEAR(glm::dot(scene.meshes[0].normals[0], Vec3(1, 0, 2)), 0, 1e-6f);
+  EXPECT_NEAR(glm::length(scene.meshes[0].normals[0]), 1, 1e-6f);
 }
 
 }  // namespace
