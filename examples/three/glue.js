@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Global illumination for a three.js program: all that stands between the two in the page. sconce runs beside it on the
-// same machine (service.h). The program's materials, shaders and lights are its own.
+// same machine (src/web/radiosity_service.h). The program's materials, shaders and lights are its own.
 import * as THREE from 'three';
 
-/** @returns the message as service.cpp has it */
+/** @returns the message as radiosity_message.h has it */
 function pack(head, ...arrays) {
   const json = new TextEncoder().encode(JSON.stringify(head));
   const padded = new Uint8Array(4 + 4 * Math.ceil(json.length / 4)).fill(32);

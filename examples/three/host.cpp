@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "room/report.h"
-#include "service.h"
+#include "web/radiosity_service.h"
 
 using Json = nlohmann::json;
 
@@ -36,12 +36,12 @@ Json room_as_json(bool shiny) {
 }
 
 int run(const std::string& out, bool shiny) {
-  Listener listener;
+  sconce::web::RadiosityListener listener;
   if (!out.empty()) {
     listener.found = [](const sconce::Detection& found) { room::print(found); };
     listener.frame = [](const sconce::FrameReport& frame) { room::print(frame); };
   }
-  GiService service(listener);
+  sconce::web::RadiosityService service(listener);
   httplib::Server server;
   server.set_tcp_nodelay(true);
   if (!server.set_mount_point("/three/", THREE_BUILD))

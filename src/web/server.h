@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A site by HTTP, with faders that its windows share. The only place that names cpp-httplib.
+// A site by HTTP, with faders that its windows share.
 #pragma once
 
 #include <filesystem>

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+namespace sconce::web {
+
 class Turns {
  public:
   struct Ended {};  ///< thrown to whoever waits
@@ -49,3 +51,5 @@ class Turns {
   std::optional<std::string> to_solver_, to_page_;
   bool ended_ = false;
 };
+
+}  // namespace sconce::web

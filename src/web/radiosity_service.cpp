@@ -1,48 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service.h"
+#include "web/radiosity_service.h"
 
 #include <httplib.h>
 
-#include <bit>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/error.h"
 #include "detect/ambient_map.h"
 #include "shader/vertex_override.h"
-#include "turns.h"
+#include "web/radiosity_message.h"
+#include "web/turns.h"
 
-using namespace sconce;
+namespace sconce::web {
+
 using Json = nlohmann::json;
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little);  // as in every browser
-
-/// The JSON's length as 32 bits, the JSON, blanks up to a multiple of four bytes, floats.
-struct Message {
-  Json head;
-  std::vector<float> floats;
-
-  std::string text() const {
-    std::string json = head.dump(-1, ' ', false, Json::error_handler_t::replace);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const auto length = static_cast<uint32_t>(json.size());
-    std::string out(reinterpret_cast<const char*>(&length), sizeof length);
-    return out.append(json).append(reinterpret_cast<const char*>(floats.data()),
-                                   floats.size() * sizeof(float));
-  }
-  static Message read(const std::string& text) {
-    uint32_t length = 0;
-    if (text.size() >= sizeof length) std::memcpy(&length, text.data(), sizeof length);
-    if (text.size() < sizeof length + length) throw Error("message", "is cut off");
-    const std::size_t at = sizeof length + length;
-    Message message{Json::parse(text.substr(sizeof length, length)), {}};
-    message.floats.resize((text.size() - at) / sizeof(float));
-    std::memcpy(message.floats.data(), text.data() + at, message.floats.size() * sizeof(float));
-    return message;
-  }
-};
 
 Json json_of(const Rgb& c) {
   return {c.r, c.g, c.b};
@@ -59,7 +32,7 @@ std::vector<float> flat(const PartCorners& parts) {
 }
 
 /// Positions of all meshes' vertices, three per face, then as many normals.
-Scene scene_of(const Message& message) {
+Scene scene_of(const RadiosityMessage& message) {
   Scene scene;
   for (const Json& name : message.head.at("materials")) scene.materials.emplace_back().name = name;
   const std::size_t all = message.floats.size() / 2;
@@ -67,8 +40,9 @@ Scene scene_of(const Message& message) {
   for (const Json& mesh : message.head.at("meshes")) {
     const auto size = mesh.at("vertices").get<std::size_t>(),
                material = mesh.at("material").get<std::size_t>();
-    if (next + 3 * size > message.floats.data() + all || material >= scene.materials.size())
-      throw Error("geometry", "has fewer vertices or materials than its meshes");
+    const auto left = static_cast<std::size_t>(message.floats.data() + all - next);
+    if (size > left / 3 || size % 3 != 0 || material >= scene.materials.size())
+      throw Error("geometry", "has fewer vertices or materials than its meshes, or no three to a face");
     const auto vectors = [size](const float* from) {
       std::vector<Vec3> v;
       for (std::size_t i = 0; i < size; ++i) v.emplace_back(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
@@ -84,15 +58,15 @@ Scene scene_of(const Message& message) {
 }  // namespace
 
 /// One page: its map, and the thread that asks the page to draw.
-class GiService::Session {
+class RadiosityService::Session {
  public:
-  Session(const Message& geometry, const Listener& listener)
+  Session(const RadiosityMessage& geometry, const RadiosityListener& listener)
       : listener_(listener), map_(scene_of(geometry), geometry.head.at("density")) {}
   ~Session() { end(); }
   /// Whoever waits for the other side goes on.
   void end() { turns_.end(); }
 
-  Message coordinates() const {
+  RadiosityMessage coordinates() const {
     return {{{"width", map_.space().width}, {"height", map_.space().height}}, flat(map_.coordinates())};
   }
   void start() {
@@ -110,23 +84,22 @@ class GiService::Session {
     try {
       return turns_.ask_solver(std::move(answer));
     } catch (const Turns::Ended&) {
-      return Message{{{"kind", "failed"}, {"message", failure_}}, {}}.text();
+      return RadiosityMessage{{{"kind", "failed"}, {"message", failure_}}, {}}.text();
     }
   }
 
  private:
   void solve(std::stop_token stop) {
     turns_.wait_for_page();
-    TransferParams params;
-    params.gather = 4096, params.rays = 256, params.lights = 128;
-    map_.start({[this](const DrawRequest& request) { return draw(request); }}, params, {{}, {}, stop});
+    map_.start({[this](const DrawRequest& request) { return draw(request); }}, quick_transfer(),
+               {{}, {}, stop});
     std::string wanted = turns_.ask_page(found().text());
     for (;;)
       wanted = turns_.ask_page(
-          (Message::read(wanted).head.at("kind") == "detect" ? found_again(stop) : frame()).text());
+          (RadiosityMessage::read(wanted).head.at("kind") == "detect" ? found_again(stop) : frame()).text());
   }
 
-  Message found_again(std::stop_token stop) {
+  RadiosityMessage found_again(std::stop_token stop) {
     try {
       map_.detect({{}, {}, std::move(stop)});
     } catch (const Error& e) {
@@ -135,7 +108,7 @@ class GiService::Session {
     return found();
   }
 
-  Message found() const {
+  RadiosityMessage found() const {
     const Detection& found = map_.detection();
     if (listener_.found) listener_.found(found);
     Json materials = Json::array();
@@ -147,36 +120,36 @@ class GiService::Session {
     return {{{"kind", "found"}, {"materials", materials}, {"findings", found.findings}}, {}};
   }
 
-  Message frame() {
+  RadiosityMessage frame() {
     const FrameReport report = map_.update();
     if (listener_.frame) listener_.frame(report);
-    Message message{{{"kind", "frame"},
-                     {"fault", report.fault},
-                     {"drawn", report.capture.milliseconds},
-                     {"read", report.capture.read_milliseconds},
-                     {"solved", report.solve_milliseconds}},
-                    {}};
+    RadiosityMessage message{{{"kind", "frame"},
+                              {"fault", report.fault},
+                              {"drawn", report.capture.milliseconds},
+                              {"read", report.capture.read_milliseconds},
+                              {"solved", report.solve_milliseconds}},
+                             {}};
     for (const Rgb& c : map_.texels()) message.floats.insert(message.floats.end(), {c.r, c.g, c.b, 1});
     return message;
   }
 
   Drawing draw(const DrawRequest& request) {
     static constexpr std::array kLights{"none", "probe", "all"};
-    Message question{{{"kind", "draw"},
-                      {"lights", kLights[static_cast<std::size_t>(request.lights)]},
-                      {"to_light", json_of(request.probe.to_light)},
-                      {"intensity", request.probe.intensity},
-                      {"eye", json_of(request.eye)},
-                      {"white_card", request.white_card},
-                      {"background", request.background},
-                      {"width", request.width},
-                      {"height", request.height}},
-                     flat(map_.places(request))};
+    RadiosityMessage question{{{"kind", "draw"},
+                               {"lights", kLights[static_cast<std::size_t>(request.lights)]},
+                               {"to_light", json_of(request.probe.to_light)},
+                               {"intensity", request.probe.intensity},
+                               {"eye", json_of(request.eye)},
+                               {"white_card", request.white_card},
+                               {"background", request.background},
+                               {"width", request.width},
+                               {"height", request.height}},
+                              flat(map_.places(request))};
     if (question.floats == places_)
       question.floats.clear();  // the page has them
     else
       places_ = question.floats;
-    const Message answer = Message::read(turns_.ask_page(question.text()));
+    const RadiosityMessage answer = RadiosityMessage::read(turns_.ask_page(question.text()));
     if (const std::string fault = answer.head.value("fault", ""); !fault.empty())
       throw std::runtime_error(fault);
     Drawing drawing{answer.head.at("width"), answer.head.at("height"), {}, {}, answer.head.at("read")};
@@ -185,7 +158,7 @@ class GiService::Session {
     return drawing;
   }
 
-  const Listener& listener_;
+  const RadiosityListener& listener_;
   AmbientMap map_;
   std::vector<float> places_;  ///< that the page was sent last
   Turns turns_;
@@ -193,10 +166,10 @@ class GiService::Session {
   std::jthread solver_;
 };
 
-GiService::GiService(Listener listener) : listener_(std::move(listener)) {}
-GiService::~GiService() = default;
+RadiosityService::RadiosityService(RadiosityListener listener) : listener_(std::move(listener)) {}
+RadiosityService::~RadiosityService() = default;
 
-void GiService::add_to(httplib::Server& server) {
+void RadiosityService::add_to(httplib::Server& server) {
   const auto post = [&server](const char* path,
                               const std::function<std::string(const httplib::Request&)>& f) {
     server.Post(path, [f](const httplib::Request& request, httplib::Response& response) {
@@ -212,7 +185,7 @@ void GiService::add_to(httplib::Server& server) {
     return override_vertex_position(request.body, request.get_param_value("name"));
   });
   post("/sconce/start", [this](const httplib::Request& request) {
-    const auto session = std::make_shared<Session>(Message::read(request.body), listener_);
+    const auto session = std::make_shared<Session>(RadiosityMessage::read(request.body), listener_);
     const std::lock_guard lock(mutex_);
     if (session_) session_->end();
     session_ = session;
@@ -227,3 +200,5 @@ void GiService::add_to(httplib::Server& server) {
     return session->turn(request.body);
   });
 }
+
+}  // namespace sconce::web
