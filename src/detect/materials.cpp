@@ -331,8 +331,7 @@ class Detector {
 }  // namespace
 
 bool DetectedMaterial::lets_through() const {
-  const Rgb& t = response.transmission;
-  return (t.r + t.g + t.b) / 3 > kThrough;
+  return response.transmission.max() > kThrough;
 }
 
 const SurfaceResponse& Detection::of(const World& world, uint32_t triangle) const {

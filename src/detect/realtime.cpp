@@ -19,17 +19,6 @@ Vec3 position_of(const OperatorPoint& p) {
   return {p.position[0], p.position[1], p.position[2]};
 }
 
-TransferParams with_transmission(TransferParams params, const Detection& detection) {
-  bool any = false;
-  for (const DetectedMaterial& m : detection.materials) {
-    const Rgb& t = m.response.transmission;
-    params.transmission.push_back((t.r + t.g + t.b) / 3);
-    any = any || m.lets_through();
-  }
-  if (!any) params.transmission.clear();
-  return params;
-}
-
 /// The materials that were found: rows are fitted to light that they reflect. What lets light through has two
 /// sides.
 Scene found_scene(const TracedScene& traced, const Detection& detection) {
@@ -56,47 +45,55 @@ RealtimeRadiosity::RealtimeRadiosity(const TracedScene& traced, const RelightRec
       host_(std::move(host)),
       detection_(detection) {
   find_backs(detection);
-  params = with_transmission(std::move(params), detection);
   // Few receivers of a scene are unlike each other: then fewer of them share a basis.
   params.cluster = std::min(params.cluster, 16 * static_cast<int>((receivers.source.count + 4095) / 4096));
   const Scene found = found_scene(traced, detection);
   const TracedScene seen{found, world_, tracer_};
-  Operator op;
-  if (params.movable) {
-    check(params);
-    parts_ = std::make_unique<OperatorParts>(seen, receivers, params, "", TransferWork{progress, nullptr});
-    op = parts_->make({progress, nullptr});
-  } else {
-    op = make_operator(seen, receivers, params, {}, {progress, nullptr});
+  std::vector<std::vector<float>> ways = tints(detection);
+  if (ways.empty()) ways.emplace_back();
+  std::vector<Operator> operators;
+  for (std::vector<float>& transmission : ways) {
+    params.transmission = std::move(transmission);
+    if (params.movable) {
+      check(params);
+      parts_.push_back(
+          std::make_unique<OperatorParts>(seen, receivers, params, "", TransferWork{progress, nullptr}));
+      operators.push_back(parts_.back()->make({progress, nullptr}));
+    } else {
+      operators.push_back(make_operator(seen, receivers, params, {}, {progress, nullptr}));
+    }
   }
-  now_ = make_solver(std::move(op), detection);
-  indirect_.resize(now_->op.gather.rows);
-  ambient_.resize(static_cast<std::size_t>(now_->op.width) * static_cast<std::size_t>(now_->op.height) *
-                  static_cast<std::size_t>(now_->op.pages));
-  if (now_->op.kind == OperatorReceivers::texels) find_copies();
+  now_ = make_solver(std::move(operators), detection);
+  const Operator& op = transfer();
+  ambient_.resize(static_cast<std::size_t>(op.width) * static_cast<std::size_t>(op.height) *
+                  static_cast<std::size_t>(op.pages));
+  if (op.kind == OperatorReceivers::texels) find_copies();
 }
 
-std::unique_ptr<RealtimeRadiosity::Solver> RealtimeRadiosity::make_solver(Operator op,
+std::unique_ptr<RealtimeRadiosity::Solver> RealtimeRadiosity::make_solver(std::vector<Operator> operators,
                                                                           const Detection& detection) const {
-  auto solver = std::make_unique<Solver>();
-  solver->op = std::move(op);
+  auto solver = std::make_unique<Solver>(Solver{TintedBounces(std::move(operators)), {}, {}, 0});
   find_faces(*solver);
   set_albedo(*solver, detection);
   return solver;
 }
 
 void RealtimeRadiosity::follow() {
-  if (parts_ == nullptr)
+  if (parts_.empty())
     throw UsageError("things that move", "an operator that stays", "TransferParams::movable");
   wait();
-  next_ = std::async(std::launch::async,
-                     [this, detection = detection_] { return make_solver(parts_->follow({}), detection); });
+  next_ = std::async(std::launch::async, [this, detection = detection_] {
+    std::vector<Operator> operators;
+    for (const std::unique_ptr<OperatorParts>& parts : parts_) operators.push_back(parts->follow({}));
+    return make_solver(std::move(operators), detection);
+  });
 }
 
 void RealtimeRadiosity::wait() {
   if (!next_.valid()) return;
-  now_ = next_.get();
-  gradual_.reset();
+  std::unique_ptr<Solver> next = next_.get();
+  next->bounces.go_on_from(now_->bounces);
+  now_ = std::move(next);
 }
 
 void RealtimeRadiosity::find_backs(const Detection& detection) {
@@ -118,13 +115,14 @@ void RealtimeRadiosity::find_faces(Solver& solver) const {
     return index;
   };
   const std::vector<uint32_t> fronts = index_of(direct_), backs = index_of(backs_);
-  solver.faces.assign(solver.op.lit.size(), {});
-  solver.blends.assign(solver.op.lit.size(), {});
+  const std::span<const OperatorPoint> lit = solver.bounces.op().lit;
+  solver.faces.assign(lit.size(), {});
+  solver.blends.assign(lit.size(), {});
   const float near = 1e-3f * world_.bounds.diagonal();
   std::atomic<std::size_t> uncovered = 0;
-  parallel_for(solver.op.lit.size(), 256, [&](std::size_t i) {
-    const Vec3 n = unpack_normal(solver.op.lit[i].geometric);
-    const Hit hit = tracer_.closest({offset_origin(position_of(solver.op.lit[i]), n, n), -n, near});
+  parallel_for(lit.size(), 256, [&](std::size_t i) {
+    const Vec3 n = unpack_normal(lit[i].geometric);
+    const Hit hit = tracer_.closest({offset_origin(position_of(lit[i]), n, n), -n, near});
     if (hit) solver.faces[i] = {hit.triangle, hit.barycentric};
     const TextureSpace& space = hit.back ? backs_ : direct_;
     const uint32_t face = hit ? (hit.back ? backs : fronts)[hit.triangle] : kNone;
@@ -143,7 +141,7 @@ void RealtimeRadiosity::find_faces(Solver& solver) const {
 }
 
 void RealtimeRadiosity::find_copies() {
-  const Operator& op = now_->op;
+  const Operator& op = transfer();
   const int rows = op.height * op.pages;
   std::vector<uint32_t> from(ambient_.size(), kNone);
   std::vector<uint32_t> front(op.places.begin(), op.places.end());
@@ -172,27 +170,25 @@ void RealtimeRadiosity::set_materials(const Detection& detection) {
 }
 
 void RealtimeRadiosity::set_albedo(Solver& solver, const Detection& detection) const {
-  solver.albedo.resize(solver.op.albedo.size());
-  const std::size_t points = solver.op.lit.size() / solver.albedo.size();
-  for (std::size_t node = 0; node < solver.albedo.size(); ++node) {
+  const Operator& op = solver.bounces.op();
+  std::vector<Rgb> reflectance(op.albedo.size());
+  const std::size_t points = op.lit.size() / reflectance.size();
+  for (std::size_t node = 0; node < reflectance.size(); ++node) {
     Rgb sum;
     for (std::size_t i = points * node; i < points * (node + 1); ++i)
       sum += solver.faces[i].triangle != kNone
                  ? detection.at(world_, solver.faces[i].triangle, solver.faces[i].barycentric).reflectance
-                 : unpack_albedo(solver.op.lit[i].albedo);
-    const float weight = solver.op.albedo[node][3];  // Operator::albedo
-    sum *= (weight > 0 ? weight : 1.0f) / static_cast<float>(points);
-    solver.albedo[node] = {sum.r, sum.g, sum.b, weight};
+                 : unpack_albedo(op.lit[i].albedo);
+    reflectance[node] = sum / static_cast<float>(points);
   }
-  solver.op.albedo = solver.albedo;
-  solver.bounces = std::make_unique<FoldedBounces>(solver.op);
+  solver.bounces.set_reflectance(reflectance);
 }
 
 FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
   FrameReport report;
   if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) wait();
   report.following = next_.valid();
-  const Operator& op = now_->op;
+  const Operator& op = transfer();
   const std::vector<PixelBlend>& blends = now_->blends;
   DrawRequest request;
   request.lights = DrawRequest::Lights::all;
@@ -234,27 +230,8 @@ FrameReport RealtimeRadiosity::update(const FrameBudget& budget) {
     light[slot] = {sum.r, sum.g, sum.b, 0};
   });
   report.clipped = clipped;
-  now_->bounces->apply(light);
-  if (budget.receivers >= indirect_.size() && !(budget.milliseconds < 1e30)) {
-    multiply(op.gather, light, indirect_);
-    gradual_.reset();
-  } else {
-    if (gradual_ == nullptr) gradual_ = std::make_unique<GradualRows>(op.gather), lit_.clear();
-    if (light != lit_) lit_ = std::move(light), gradual_->start(lit_, indirect_);
-    // By time in small steps, so that the last is not far beyond it.
-    const std::size_t step = std::size_t{128} * op.gather.cluster;
-    for (std::size_t left = budget.receivers; gradual_->left() > 0;) {
-      const std::size_t before = gradual_->left();
-      gradual_->refine(lit_, std::min(left, step), indirect_);
-      left -= std::min(left, before - gradual_->left());
-      if (left < op.gather.cluster || solving.milliseconds() > budget.milliseconds) break;
-    }
-    report.coarse = gradual_->left();
-  }
-  for (std::size_t i = 0; i < indirect_.size(); ++i) {
-    const Rgb& e = indirect_[i];
-    ambient_[op.places[i]] = Rgb(std::max(e.r, 0.0f), std::max(e.g, 0.0f), std::max(e.b, 0.0f));
-  }
+  report.coarse = now_->bounces.solve(light, budget, solving);
+  for (std::size_t i = 0; i < op.places.size(); ++i) ambient_[op.places[i]] = now_->bounces.light(i);
   for (const Copy& copy : copies_) ambient_[copy.to] = ambient_[copy.from];
   report.solve_milliseconds = solving.milliseconds();
   return report;

@@ -6,10 +6,8 @@
 #include <future>
 #include <memory>
 
-#include "detect/materials.h"
+#include "detect/tinted_bounces.h"
 #include "relight/operator_parts.h"
-#include "transfer/folded_bounces.h"
-#include "transfer/gradual_rows.h"
 
 namespace sconce {
 
@@ -25,13 +23,6 @@ struct FrameReport {
   explicit operator bool() const { return fault.empty(); }
 };
 
-/// What a frame may cost beside the renderer's drawing and the bounces: after either at least one cluster of
-/// receivers ends the frame.
-struct FrameBudget {
-  std::size_t receivers = static_cast<std::size_t>(-1);  ///< the same light on any machine
-  double milliseconds = 1e30;
-};
-
 /// Light is in the renderer's unit: 1 is what it shows as 1. A surface shows
 /// emission + reflectance x (its own direct light + ambient).
 class RealtimeRadiosity {
@@ -39,7 +30,8 @@ class RealtimeRadiosity {
   /// Follows rays, once; those that meet what lets light through go on behind it, and both of its sides send
   /// light on. Of backs that the renderer lights, the light is drawn, too.
   /// @param traced     must outlive it, as what the receivers refer to
-  /// @param detection  its transmissions are taken by material, and stay; a share without colour
+  /// @param detection  its transmissions are taken by material, and stay; coloured ones take an operator per
+  ///                   channel, three times the work and the bytes
   /// @param direct   where faces are drawn to see their light; the faces of all that sends light on
   /// @param params   of `cluster` no more than a 256th of the receivers
   /// @throws UsageError, Cancelled, as make_operator()
@@ -66,7 +58,8 @@ class RealtimeRadiosity {
   /// Light by reflection, per texel (page x height x width + y x width + x; those around receivers have their
   /// neighbours') or vertex, linear. To be multiplied by the surface's own reflectance and added.
   std::span<const Rgb> ambient() const { return ambient_; }
-  const Operator& transfer() const { return now_->op; }
+  /// The operator; of red, where channels have their own.
+  const Operator& transfer() const { return now_->bounces.op(); }
   const TextureSpace& direct_space() const { return direct_; }
   /// Points that stand for the light of the surfaces, and those of them that no drawn face covers: black.
   std::size_t points() const { return now_->blends.size(); }
@@ -80,16 +73,14 @@ class RealtimeRadiosity {
     uint32_t triangle = 0xffffffffu;  ///< or none
     Vec2 barycentric{0};
   };
-  /// The operator, and how it sees the renderer's drawings.
+  /// The operators, and how they see the renderer's drawings.
   struct Solver {
-    Operator op;
-    std::vector<Rgbx> albedo;  ///< the operator's, per node
-    std::unique_ptr<FoldedBounces> bounces;
+    TintedBounces bounces;
     std::vector<OnFace> faces;       ///< per lit point: where it is
     std::vector<PixelBlend> blends;  ///< per lit point: what it reads, of fronts and then of backs
     std::size_t uncovered = 0;
   };
-  std::unique_ptr<Solver> make_solver(Operator op, const Detection& detection) const;
+  std::unique_ptr<Solver> make_solver(std::vector<Operator> operators, const Detection& detection) const;
   void find_faces(Solver& solver) const;
   void set_albedo(Solver& solver, const Detection& detection) const;
   void find_backs(const Detection& detection);
@@ -100,12 +91,10 @@ class RealtimeRadiosity {
   TextureSpace direct_, backs_;  ///< fronts, and faces whose backs the renderer lights
   HostRenderer host_;
   Detection detection_;
-  std::unique_ptr<OperatorParts> parts_;  ///< of what may move
+  std::vector<std::unique_ptr<OperatorParts>> parts_;  ///< of what may move, per operator
   std::unique_ptr<Solver> now_;
-  std::unique_ptr<GradualRows> gradual_;       ///< made by the first budget
-  std::vector<Rgbx> lit_;                      ///< coefficients that it is at
-  std::vector<Copy> copies_;                   ///< texels around receivers
-  std::vector<Rgb> indirect_, ambient_;        ///< the former may be below 0
+  std::vector<Copy> copies_;  ///< texels around receivers
+  std::vector<Rgb> ambient_;
   std::future<std::unique_ptr<Solver>> next_;  ///< last: what it uses lives as long
 };
 
