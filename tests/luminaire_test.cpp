@@ -385,6 +385,18 @@ TEST(LuminaireVerb, BadInput) {
       run_sconce({"luminaire", "info", (data / "ies/ies_rescale/Truncated Profile - 01.IES").string()});
   EXPECT_EQ(cut.code, 1);
   EXPECT_NE(cut.err.find("Truncated Profile - 01.IES:25: ends before"), std::string::npos) << cut.err;
+  // A broken file among others is told; the others are checked.
+  const auto among =
+      run_sconce({"luminaire", "check", (data / "ies/ies_rescale/Truncated Profile - 01.IES").string(),
+                  (data / "ldt/eulumdat-py/sample4.ldt").string()});
+  EXPECT_EQ(among.code, 1);
+  EXPECT_NE(among.err.find("Truncated Profile - 01.IES:25: ends before"), std::string::npos) << among.err;
+  EXPECT_NE(among.out.find("sample4.ldt: 5543.9 lm, rendered 5543.9 lm"), std::string::npos) << among.out;
+  const auto watts =
+      run_sconce({"luminaire", "field", (data / "tm25/CreatePointSourceRayFile/farfield.TM25ray").string(),
+                  "-o", "x.exr"});
+  EXPECT_EQ(watts.code, 2);
+  EXPECT_NE(watts.err.find("--lumens: is needed"), std::string::npos) << watts.err;
   const auto action = run_sconce({"luminaire", "chek"});
   EXPECT_EQ(action.code, 2);
   EXPECT_NE(action.err.find("did you mean 'check'?"), std::string::npos) << action.err;

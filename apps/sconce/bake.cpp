@@ -239,7 +239,7 @@ void declare(Options& options, Request& request) {
          direct_estimate, denoise, time, max_error] = request.given;
   BakeJob& job = request.job;
   options.positional("SCENE", &scene,
-                     "glTF, OBJ, FBX, COLLADA, 3DS, PLY, STL or Blender file; SCENE.toml beside it adds "
+                     "glTF, OBJ, FBX, COLLADA, 3DS, PLY, STL, L3D or Blender file; SCENE.toml beside it adds "
                      "lights, groups, options");
   options.option("-o,--output", &output, "package to write (default: NAME.sconce beside the scene)");
   options.option("--groups", &job.grouping, "how lights become groups: auto, named, per-light, one");

@@ -40,8 +40,8 @@ int run_luminaire(int argc, const char* const* argv) {
   }
   if (name == "--help" || name == "-h") {
     fmt::print(
-        "usage: sconce luminaire ACTION FILE [options]\n\nMeasured lamps: IES LM-63, EULUMDAT, ray "
-        "files.\n\n");
+        "usage: sconce luminaire ACTION FILE [options]\n\nMeasured lamps: IES LM-63, EULUMDAT, TM-33, GLDF, "
+        "ray files, light fields.\n\n");
     fmt::print("{}\n'sconce luminaire ACTION --help' lists its options.\n", verbs_text(kActions));
     return kDone;
   }
@@ -53,7 +53,13 @@ int run_luminaire(int argc, const char* const* argv) {
 LuminaireSource read_luminaire(const std::string& file, double step, const Progress& progress) {
   LuminaireSource out;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
-    out.photometry = far_field(NearLamp(read_light_field(file)), step);
+    LightField field = read_light_field(file);
+    const double lumens = flux(field);
+    out.field = describe(field);
+    out.photometry = far_field(NearLamp(std::move(field)), step);
+    // The table's steps are wider than its beam may be; the flux is known.
+    const double table = flux(out.photometry);
+    for (double& candela : out.photometry.candela) candela *= table > 0 ? lumens / table : 1;
     return out;
   }
   FarFieldBins bins(static_cast<int>(std::lround(360 / step)), static_cast<int>(std::lround(180 / step)));
@@ -73,9 +79,9 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
   }
   out.ray_flux = bins.flux();
   if (!(out.ray_flux > 0)) throw Error(file, "holds rays without flux");
-  if (const double stated = out.rays->stated; stated > 0 && std::abs(out.ray_flux / stated - 1) > 0.005)
+  if (const double stated = out.rays->stated; stated > 0 && std::abs(out.rays->held / stated - 1) > 0.005)
     progress.warn(fmt::format("{}: its header states a flux of {:.6g}, its rays hold {:.6g}", file, stated,
-                              out.ray_flux));
+                              out.rays->held));
   out.photometry = bins.table();
   return out;
 }
@@ -90,6 +96,13 @@ void add_coding(Options& options, std::string& coding) {
 FieldCoding parse_coding(const std::string& coding) {
   if (const auto found = coding_named(coding)) return *found;
   throw UsageError("--coding", "'" + coding + "' is unknown", "float, half, srgbe");
+}
+
+std::string describe(const LightField& field) {
+  return fmt::format("{} x {} filters ({}) of {:g} mm, screen {:g} mm below, {} x {} pixels of {:.3g} mm, {}",
+                     field.columns, field.rows, name_of(field.basis), 1000 * field.spacing,
+                     1000 * field.distance, field.width, field.height, 1000 * field.pixel,
+                     field.is_grey() ? "grey" : "in colours");
 }
 
 std::string describe(const Opening& o) {

@@ -30,6 +30,10 @@ struct LuminaireSource {
   Photometry photometry;
   std::optional<RayFile> rays;
   double ray_flux = 0;  ///< in the rays' unit
+  std::string field;    ///< of a light field: describe()
+
+  /// Rays in watts tell how light spreads, but not how much.
+  bool in_watts() const { return rays && !rays->luminous; }
 };
 /// What a table's reader found odd becomes warnings. @param step  degrees between the angles of a table made
 /// from rays
@@ -43,6 +47,8 @@ void add_coding(Options& options, std::string& coding);
 /// @throws UsageError naming the choices
 FieldCoding parse_coding(const std::string& coding);
 
+/// Grid, planes and pixels of a light field.
+std::string describe(const LightField& field);
 /// "0.60 x 0.30 m box", "point".
 std::string describe(const Opening& opening);
 

@@ -43,6 +43,7 @@ std::string text_of(const UgrTable& ugr) {
   return table.text();
 }
 
+constexpr double kStep = 2.5;     // degrees, of a table made of rays or of a light field
 constexpr int kDiagramScale = 2;  // pixels per unit of a diagram
 
 bool is_png(const std::filesystem::path& file) {
@@ -88,11 +89,11 @@ int run_luminaire_check(int argc, const char* const* argv) {
   bool ugr = false, png = false;
   Options options("luminaire check",
                   "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
-                  "glare. Exit code 3 where "
-                  "something is wrong.",
+                  "glare; of rays and light fields their far field. Exit code 3 where "
+                  "something is wrong, 1 where a file cannot be read.",
                   {"sconce luminaire check lamp.ldt", "sconce luminaire check lamps/*.ies --quiet",
                    "sconce luminaire render {FILE} -o wall.png"});
-  options.positionals("file", &files, "IES LM-63 or EULUMDAT files", true);
+  options.positionals("file", &files, kAnyLamp, true);
   options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
   options.option("--diagram", &diagram, "write the polar diagram, .svg or .png; with several files a folder");
   options.option("--isolux", &isolux,
@@ -105,13 +106,33 @@ int run_luminaire_check(int argc, const char* const* argv) {
     if (files.size() == 1 && !target->empty() && !is_png(*target) &&
         lower(std::filesystem::path(*target).extension().string()) != ".svg")
       throw UsageError(name, "'" + *target + "' names no format", ".svg, .png");
-  bool sick = false;
+  bool sick = false, broken = false;
   Json report = Json::array();
   for (const std::string& target : {diagram, isolux})
     if (!target.empty() && files.size() > 1) std::filesystem::create_directories(target);
   for (const std::string& file : files) {
-    const Photometry p = read_photometry(file);
-    const std::vector<Finding> findings = examine(p);
+    std::vector<std::string> said;
+    Progress progress = make_progress(options);
+    progress.warning = [&](const std::string& line) { said.push_back(line.substr(file.size() + 2)); };
+    LuminaireSource source;
+    try {
+      source = read_luminaire(file, kStep, progress);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      if (files.size() == 1) throw;
+      broken = true;
+      report.push_back({{"file", file}, {"error", error.what()}});
+      fmt::print(stderr, "sconce luminaire check: {}\n", error.what());
+      continue;
+    }
+    const Photometry& p = source.photometry;
+    std::vector<Finding> findings = examine(p);
+    // Of a photometric file these are its notes, which are examined.
+    if (source.rays)
+      for (const std::string& line : said) findings.push_back({true, line});
+    if (source.in_watts())
+      findings.push_back({true, "its rays are in watts: figures in lm, cd and lx are watts, too"});
     const double lumens = flux(p), rendered = rendered_flux(p);
     const std::optional<UgrTable> table = ugr_of(p);
     const std::string stem = std::filesystem::path(file).stem().string();
@@ -142,12 +163,15 @@ int run_luminaire_check(int argc, const char* const* argv) {
                p.stated ? fmt::format(", stated {:.1f} lm", *p.stated) : "");
     for (const Finding& finding : findings)
       fmt::print("  {}{}\n", finding.warning ? "warning: " : "", finding.text);
-    if (ugr && table) fmt::print("{}", text_of(*table));
+    if (ugr && table)
+      fmt::print(
+          "  UGR, luminaires a quarter of H apart, {:.0f} lm; reflectances of ceiling/walls/floor, %:\n{}",
+          lumens, text_of(*table));
     if (ugr && !table) fmt::print("  no UGR table: the file does not say how large the luminous area is\n");
   }
   if (options.json) fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   if (files.size() == 1) options.next(files);
-  return sick ? kDiffers : kDone;
+  return broken ? kFailed : sick ? kDiffers : kDone;
 }
 
 }  // namespace sconce::app

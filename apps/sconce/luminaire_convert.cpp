@@ -30,14 +30,20 @@ Photometry scaled(Photometry p, double lumens, const std::string& file) {
 std::pair<double, double> convert_rays(const std::string& file, const std::string& output, double lumens,
                                        const Progress& progress) {
   double before = 0, after = 0;
+  bool colored = false;
   const RayFile said = read_rays(
       file,
       [&](std::span<const SourceRay> rays) {
-        for (const SourceRay& ray : rays) before += static_cast<double>(ray.flux);
+        for (const SourceRay& ray : rays) {
+          before += static_cast<double>(ray.flux);
+          colored |= ray.color != Rgb(1);
+        }
       },
       progress);
   if (lumens > 0 && !(before > 0)) throw Error(file, "has no light that could be scaled to --lumens");
-  RayWriter writer(output, said.luminous || lumens > 0);
+  RayWriter writer(output, said.luminous || lumens > 0, colored);
+  Progress quietly = progress;
+  quietly.warning = nullptr;  // was said
   const auto scale = static_cast<float>(lumens > 0 ? lumens / before : 1);
   std::vector<SourceRay> block;
   read_rays(
@@ -47,7 +53,7 @@ std::pair<double, double> convert_rays(const std::string& file, const std::strin
         for (SourceRay& ray : block) after += static_cast<double>(ray.flux *= scale);
         writer.add(block);
       },
-      progress);
+      quietly);
   writer.finish();
   return {before, after};
 }

@@ -45,8 +45,8 @@ int run_luminaire_field(int argc, const char* const* argv) {
        "sconce luminaire render {FILE} -o wall.png"});
   options.positional(
       "file", &file,
-      "TM-25, LightTools or Zemax rays; or a scene (.glb, .obj, .fbx, ...) with emissive faces: a "
-      "luminaire that hangs, nadir -y, metals its mirrors");
+      "TM-25, LightTools, Zemax, SPEOS or ASAP rays; or a scene (.glb, .obj, .fbx, .l3d, ...) with emissive "
+      "faces: a luminaire that hangs, nadir -y, metals its mirrors");
   options.option("-o,--output", &output, "light field to write, .exr");
   add_coding(options, coding);
   options.option("--basis", &basis, "spline, or the paper's bell");
@@ -73,7 +73,13 @@ int run_luminaire_field(int argc, const char* const* argv) {
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
   const LampRays rays(file, static_cast<uint64_t>(count), static_cast<uint32_t>(seed), progress);
-  const MeasuredField measured = measure_field([&](const auto& f) { rays.each(f); }, params, file);
+  const auto each = [&](const auto& f) {
+    rays.each(f);
+    if (!rays.luminous() && !(params.lumens > 0))
+      throw UsageError("--lumens", "is needed: the rays of " + file + " are in watts",
+                       "the lamp's luminous flux");
+  };
+  const MeasuredField measured = measure_field(each, params, file);
   const LightField& field = measured.field;
   write_light_field(output, field, as);
   if (!far.empty()) write_far(far, rays, measured.scale);

@@ -13,14 +13,15 @@ namespace sconce::app {
 namespace {
 
 bool names_scene(const std::string& file) {
-  const std::string type = lower(std::filesystem::path(file).extension().string());
-  return std::ranges::find(scene_endings(), type) != scene_endings().end();
+  const std::filesystem::path path = file;
+  return lower(path.filename().string()) == "structure.xml" ||  // of an L3D
+         std::ranges::find(scene_endings(), lower(path.extension().string())) != scene_endings().end();
 }
 
 }  // namespace
 
 LampRays::LampRays(const std::string& file, uint64_t count, uint32_t seed, const Progress& progress)
-    : file_(file), progress_(progress), traced_(names_scene(file)) {
+    : file_(file), traced_(names_scene(file)), once_(progress) {
   if (!traced_) return;
   Scene scene = import_scene(file, progress);
   scene.name = file;
@@ -38,7 +39,8 @@ void LampRays::each(const std::function<void(std::span<const SourceRay>)>& f) co
   if (traced_)
     f(rays_);
   else
-    read_rays(file_, f, progress_);
+    luminous_ = read_rays(file_, f, once_).luminous;
+  once_.warning = nullptr;
 }
 
 }  // namespace sconce::app

@@ -21,11 +21,14 @@ class LampRays {
   /// Calls f with blocks of rays, always in the same order; flux as the file has it, lm for a scene.
   void each(const std::function<void(std::span<const SourceRay>)>& f) const;
   bool traced() const { return traced_; }
+  /// Are fluxes lumens, and not watts? Known once each() has run.
+  bool luminous() const { return luminous_; }
 
  private:
   std::string file_;
-  const Progress& progress_;
   bool traced_ = false;
+  mutable bool luminous_ = true;
+  mutable Progress once_;        ///< says what is odd about a file the first time only
   std::vector<SourceRay> rays_;  ///< of a scene
 };
 

@@ -73,35 +73,39 @@ Predicted predict(const Wall& wall, const NearLamp& lamp, double exact_below) {
   return out;
 }
 
-/// Rays where they land: the lamp itself, with its noise.
-Image land(const Wall& wall, const std::string& file, const Progress& progress) {
+/// Rays where they land: the lamp itself, with its noise. @param luminous  are they in lumens?
+Image land(const Wall& wall, const std::string& file, const Progress& progress, bool& luminous) {
   Image out = Image::rgb(wall.size, wall.size);
-  std::vector<double> sums(out.pixels());
+  std::vector<glm::dvec3> sums(out.pixels());
   const double step = wall.width / wall.size;
-  read_rays(
-      file,
-      [&](std::span<const SourceRay> rays) {
-        for (const SourceRay& ray : rays) {
-          const double drop =
-              (static_cast<double>(ray.position.z) + wall.distance) / static_cast<double>(-ray.direction.z);
-          if (!(drop > 0)) continue;
-          const double x = (static_cast<double>(ray.position.x + ray.direction.x * drop) + 0.5 * wall.width) /
-                           step,
-                       y = (0.5 * wall.width - static_cast<double>(ray.position.y + ray.direction.y * drop)) /
-                           step;
-          if (!(x >= 0 && y >= 0 && x < wall.size && y < wall.size)) continue;
-          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
-               static_cast<std::size_t>(x)] += static_cast<double>(ray.flux);
-        }
-      },
-      progress);
+  luminous = read_rays(
+                 file,
+                 [&](std::span<const SourceRay> rays) {
+                   for (const SourceRay& ray : rays) {
+                     const double drop = (static_cast<double>(ray.position.z) + wall.distance) /
+                                         static_cast<double>(-ray.direction.z);
+                     if (!(drop > 0)) continue;
+                     const double x = (static_cast<double>(ray.position.x + ray.direction.x * drop) +
+                                       0.5 * wall.width) /
+                                      step,
+                                  y = (0.5 * wall.width -
+                                       static_cast<double>(ray.position.y + ray.direction.y * drop)) /
+                                      step;
+                     if (!(x >= 0 && y >= 0 && x < wall.size && y < wall.size)) continue;
+                     sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
+                          static_cast<std::size_t>(x)] +=
+                         static_cast<double>(ray.flux) * glm::dvec3(ray.color.r, ray.color.g, ray.color.b);
+                   }
+                 },
+                 progress)
+                 .luminous;
   for (int y = 0; y < wall.size; ++y)
-    for (int x = 0; x < wall.size; ++x)
-      out.set_rgb(
-          x, y,
-          Rgb(static_cast<float>(sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
-                                      static_cast<std::size_t>(x)] /
-                                 (step * step))));
+    for (int x = 0; x < wall.size; ++x) {
+      const Vec3 lux = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
+                            static_cast<std::size_t>(x)] /
+                       (step * step);
+      out.set_rgb(x, y, Rgb(lux.x, lux.y, lux.z));
+    }
   return out;
 }
 
@@ -166,6 +170,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
 
   Image image;
   std::optional<Predicted> predicted;
+  bool luminous = true;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
     const LightField field = read_light_field(file);
     const NearLamp lamp(field);
@@ -182,7 +187,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
     predicted = predict(wall, lamp, exact_below);
   } else {
     try {
-      image = land(wall, file, progress);
+      image = land(wall, file, progress, luminous);
     } catch (const NotMyFormat&) {
       image = paint_table(wall, read_luminaire(file, 5, progress).photometry, progress);
     }
@@ -194,7 +199,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
       sum += lux, most = std::max(most, lux);
     }
   const double mean = sum / (static_cast<double>(size) * size), lumens = mean * wall.width * wall.width;
-  image.text["sconce:unit"] = "lux";
+  image.text["sconce:unit"] = luminous ? "lux" : "W/m2";
   if (type == ".exr")
     write_exr(output, image, PixelType::full);
   else
@@ -206,8 +211,8 @@ int run_luminaire_render(int argc, const char* const* argv) {
           {"geometry", predicted->geometry}, {"detail", predicted->detail}, {"noise", predicted->noise}};
     fmt::print("{}\n", out.dump(2));
   } else if (!options.quiet) {
-    fmt::print("{}: {:.4g} lux at most, {:.4g} in the mean, {:.5g} lm on {:g} x {:g} m\n", output, most, mean,
-               lumens, wall.width, wall.width);
+    fmt::print("{}: {:.4g} {} at most, {:.4g} in the mean, {:.5g} {} on {:g} x {:g} m\n", output, most,
+               luminous ? "lux" : "W/m2", mean, lumens, luminous ? "lm" : "W", wall.width, wall.width);
     if (predicted)
       fmt::print("predicted error: at most {:.2g} % by geometry, {:.2g} % by detail, noise {:.2g} %\n",
                  100 * predicted->geometry, 100 * predicted->detail, 100 * predicted->noise);

@@ -1,49 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/kelvin.h"
 
-#include <array>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/observer.h"
 
 namespace sconce {
 
 namespace {
 
-using Triple = std::array<double, 3>;
-
 constexpr double kSecondRadiation = 1.438776877e7;  // c2 = h c / k in nm K (CODATA 2018)
-constexpr double kRec709Red[3] = {3.2404542, -1.5371385, -0.4985314};
-constexpr double kRec709Green[3] = {-0.9692660, 1.8760108, 0.0415560};
-constexpr double kRec709Blue[3] = {0.0556434, -0.2040259, 1.0572252};
-
-// CIE 1931 2-degree colour matching functions, 380 to 770 nm. The analytic fit of Wyman, Sloan and Shirley
-// (2013) is 1 % off in red at 2700 K, so the table it is.
-constexpr Triple kObserver[] = {
-    {0.0014, 0.0000, 0.0065}, {0.0042, 0.0001, 0.0201}, {0.0143, 0.0004, 0.0679}, {0.0435, 0.0012, 0.2074},
-    {0.1344, 0.0040, 0.6456}, {0.2839, 0.0116, 1.3856}, {0.3483, 0.0230, 1.7471}, {0.3362, 0.0380, 1.7721},
-    {0.2908, 0.0600, 1.6692}, {0.1954, 0.0910, 1.2876}, {0.0956, 0.1390, 0.8130}, {0.0320, 0.2080, 0.4652},
-    {0.0049, 0.3230, 0.2720}, {0.0093, 0.5030, 0.1582}, {0.0633, 0.7100, 0.0782}, {0.1655, 0.8620, 0.0422},
-    {0.2904, 0.9540, 0.0203}, {0.4334, 0.9950, 0.0087}, {0.5945, 0.9950, 0.0039}, {0.7621, 0.9520, 0.0021},
-    {0.9163, 0.8700, 0.0017}, {1.0263, 0.7570, 0.0011}, {1.0622, 0.6310, 0.0008}, {1.0026, 0.5030, 0.0003},
-    {0.8544, 0.3810, 0.0002}, {0.6424, 0.2650, 0.0000}, {0.4479, 0.1750, 0.0000}, {0.2835, 0.1070, 0.0000},
-    {0.1649, 0.0610, 0.0000}, {0.0874, 0.0320, 0.0000}, {0.0468, 0.0170, 0.0000}, {0.0227, 0.0082, 0.0000},
-    {0.0114, 0.0041, 0.0000}, {0.0058, 0.0021, 0.0000}, {0.0029, 0.0010, 0.0000}, {0.0014, 0.0005, 0.0000},
-    {0.0007, 0.0002, 0.0000}, {0.0003, 0.0001, 0.0000}, {0.0002, 0.0001, 0.0000}, {0.0001, 0.0000, 0.0000},
-};
-
 /// Unscaled Rec. 709 triple of a black body.
-Triple planck_rgb(double kelvin) {
-  double xyz[3] = {0, 0, 0};
-  double wavelength = 380;
-  for (const Triple& observer : kObserver) {
+Xyz planck_rgb(double kelvin) {
+  Xyz xyz{};
+  for (int wavelength = 380; wavelength <= 770; wavelength += 10) {
     const double radiance =
-        std::pow(wavelength / 560, -5) / std::expm1(kSecondRadiation / (wavelength * kelvin));
-    for (std::size_t i = 0; i < 3; ++i) xyz[i] += observer[i] * radiance;
-    wavelength += 10;
+        std::pow(wavelength / 560.0, -5) / std::expm1(kSecondRadiation / (wavelength * kelvin));
+    const Xyz eye = observer(wavelength);
+    for (std::size_t i = 0; i < 3; ++i) xyz[i] += eye[i] * radiance;
   }
-  const auto dot = [&](const double(&row)[3]) { return row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]; };
-  return {dot(kRec709Red), dot(kRec709Green), dot(kRec709Blue)};
+  return rec709_of(xyz);
 }
 
 }  // namespace
@@ -52,8 +29,8 @@ Rgb kelvin_color(double kelvin) {
   if (!(kelvin >= kKelvinMin && kelvin <= kKelvinMax))
     throw UsageError({}, "colour temperature " + std::to_string(kelvin) + " K is out of range",
                      "1000 to 11000 K");
-  const Triple warm = planck_rgb(kelvin), white = planck_rgb(6504);
-  Triple c;
+  const Xyz warm = planck_rgb(kelvin), white = planck_rgb(6504);
+  Xyz c;
   for (std::size_t i = 0; i < 3; ++i) c[i] = std::max(0.0, warm[i] / white[i]);
   const double scale = 1 / (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]);
   return {static_cast<float>(c[0] * scale), static_cast<float>(c[1] * scale),

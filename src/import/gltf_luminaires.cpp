@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/kelvin.h"
+#include <algorithm>
 
 #include "core/error.h"
+#include "core/kelvin.h"
 #include "import/gltf_luminaires.h"
 #include "import/gltf_parts.h"
 #include "import/uri.h"
@@ -14,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kIes = "EXT_lights_ies";
+constexpr std::string_view kExtraKeys[] = {"file", "flux", "cct", "dim", "exact_below"};
 
 std::string text_of(const tinygltf::Value& object, const char* key) {
   return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : std::string();
@@ -86,6 +88,10 @@ std::optional<Light> GltfLuminaires::read(const tinygltf::Node& node, const Gltf
       if (extra.IsString()) {
         file = extra.Get<std::string>();
       } else if (extra.IsObject()) {
+        for (const std::string& key : extra.Keys())
+          if (std::ranges::find(kExtraKeys, key) == std::end(kExtraKeys))
+            throw Error(source_.at(place + ".extras.luminaire"), "has the unknown key '" + key + "'",
+                        "file, flux, cct, dim, exact_below");
         file = text_of(extra, "file");
         strength.dim = number_of(extra, "dim", 1);
         if (extra.Has("flux")) strength.flux = number_of(extra, "flux", 0);

@@ -25,6 +25,7 @@ constexpr Format kFormats[] = {
     {"glTF 2.0 (.gltf, .glb)", import_gltf, gltf_files},
     {"OBJ (.obj)", import_obj, obj_files},
     {"3DS, FBX, COLLADA, PLY, STL (.3ds, .fbx, .dae, .ply, .stl)", import_assimp, assimp_files},
+    {"L3D (.l3d, structure.xml)", import_l3d, l3d_files},
     {"Blender (.blend)", import_blend, [](const fs::path&) { return std::vector<fs::path>(); }},
 };
 
@@ -53,8 +54,8 @@ std::vector<fs::path> files_of_any(const fs::path& path) {
 }  // namespace
 
 std::span<const std::string_view> scene_endings() {
-  static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx",  ".dae",
-                                                  ".3ds", ".ply",  ".stl", ".blend"};
+  static constexpr std::string_view kEndings[] = {".glb", ".gltf", ".obj", ".fbx", ".dae",
+                                                  ".3ds", ".ply",  ".stl", ".l3d", ".blend"};
   return kEndings;
 }
 

@@ -41,6 +41,12 @@ Scene import_blend(const std::filesystem::path& path, const Progress& progress =
 /// are errors with file:line. The [options] table is the command line's business and ignored here.
 void apply_side_file(const std::filesystem::path& path, Scene& scene, const Progress& progress = {});
 
+/// L3D, .l3d or the structure.xml of an unpacked one: faces that shine emit 1000 lm together, evenly, as the
+/// format says no flux. It hangs: nadir -y, C0 +x. @throws NotMyFormat, Error
+Scene import_l3d(const std::filesystem::path& path, const Progress& progress = {});
+/// What lies beside a structure.xml. @throws NotMyFormat
+std::vector<std::filesystem::path> l3d_files(const std::filesystem::path& path);
+
 /// What has no light at all gets an overcast sky of 10,000 lx, and a warning that names the ways to add
 /// lamps.
 void add_default_sky(Scene& scene, const Progress& progress = {});

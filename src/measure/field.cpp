@@ -21,6 +21,7 @@ struct Extent {
   Vec2 low{1e30f}, high{-1e30f};  ///< on the sampling plane, m
   float bottom = 1e30f;           ///< z of the sampling plane
   bool colored = false;           ///< some of them
+  float saturation = 1;           ///< that their colours are to have: less where Rec. 709 has not that of all
 };
 
 class FieldRays {
@@ -30,23 +31,30 @@ class FieldRays {
   Extent extent() const {
     Extent out;
     each([&](const SourceRay& ray) { out.bottom = std::min(out.bottom, ray.position.z); });
+    glm::dvec3 sum(0);  // lm of each channel
+    double all = 0;
     each([&](const SourceRay& ray) {
       const SourceRay r = lowered(ray, out.bottom);
       if (!within(r)) return;
       const Vec2 uv = Vec2(r.position) - Vec2(r.direction) * (r.position.z / r.direction.z);
       out.low = glm::min(out.low, uv), out.high = glm::max(out.high, uv);
       out.colored |= r.color != Rgb(1);
+      const auto lumens = static_cast<double>(r.flux);
+      sum += lumens * glm::dvec3(r.color.r, r.color.g, r.color.b), all += lumens;
     });
+    if (const double least = all > 0 ? std::min({sum.x, sum.y, sum.z}) / all : 0; least < 0)
+      out.saturation = static_cast<float>(1 / (1 - least));
     return out;
   }
 
-  void project(LightFieldBuilder& builder, float bottom, float scale) const {
+  void project(LightFieldBuilder& builder, const Extent& extent, float scale) const {
     std::vector<SourceRay> block;
     rays_([&](std::span<const SourceRay> rays) {
       block.clear();
       for (const SourceRay& ray : rays) {
-        SourceRay r = lowered(ray, bottom);
+        SourceRay r = lowered(ray, extent.bottom);
         r.flux *= scale;
+        r.color = Rgb(1) + extent.saturation * (r.color - Rgb(1));
         if (!within(r)) r.direction = Vec3(0, 0, 1);  // counts as lost
         block.push_back(r);
       }
@@ -104,7 +112,7 @@ MeasuredField measure_field(const RaySource& source, const FieldParams& params, 
   out.plane = static_cast<double>(extent.bottom);
   if (params.lumens > 0) out.scale = params.lumens / rays.flux();
   LightFieldBuilder builder(std::move(empty), extent.colored);
-  rays.project(builder, extent.bottom, static_cast<float>(out.scale));
+  rays.project(builder, extent, static_cast<float>(out.scale));
   out.kept = builder.kept(), out.lost = builder.lost();
   out.field = std::move(builder).finish();
   return out;

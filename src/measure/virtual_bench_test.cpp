@@ -202,5 +202,37 @@ TEST(MeasureField, PlanesAndFlux) {
   EXPECT_THROW(measure_field(source, params, "rays"), Error);
 }
 
+// Colours of single rays may lie outside of Rec. 709, that of the lamp may not: then all of them are less
+// saturated, by the same share, and luminance stays.
+TEST(MeasureField, ColoursThatFit) {
+  std::vector<SourceRay> rays;
+  const auto totals = [&] {
+    FieldParams params;
+    params.basis = NearBasis::bell;
+    params.spacing = 0.02;
+    params.pixels = 8;
+    const LightField field = measure_field([&](const auto& f) { f(rays); }, params, "rays").field;
+    Rgb out;
+    out.r = static_cast<float>(flux(channel_of(field, 0))),
+    out.g = static_cast<float>(flux(channel_of(field, 1)));
+    out.b = static_cast<float>(flux(channel_of(field, 2)));
+    return out;
+  };
+  const auto add = [&](const Rgb& color, float lumens) {
+    rays.push_back({Vec3(0.01f * static_cast<float>(rays.size()), 0, 0), Vec3(0, 0, -1), lumens, color});
+  };
+  const Rgb blue(-0.5f, 0.8f, 1 + (1.5f * 0.2126f + 0.2f * 0.7152f) / 0.0722f), amber(3, 0.5061f, 0);
+  ASSERT_NEAR(luminance(blue), 1, 1e-5);
+  add(blue, 1), add(amber, 3);
+  const Rgb both = totals();  // (8.5, 2.32, ...): as they are
+  EXPECT_NEAR(both.r, 8.5f, 1e-3f);
+  EXPECT_NEAR(both.b, blue.b, 1e-3f);
+  rays.clear(), add(blue, 1), add(blue, 1);
+  const Rgb alone = totals();  // red: 1 + (-0.5 - 1) s = 0
+  EXPECT_NEAR(alone.r, 0, 1e-4f);
+  EXPECT_NEAR(alone.g, 2 * (1 - 0.2f / 1.5f), 1e-4f);
+  EXPECT_NEAR(luminance(alone), 2, 1e-4f);
+}
+
 }  // namespace
 }  // namespace sconce

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,16 +35,21 @@ Photometry FarFieldBins::table() const {
     return 2 * std::numbers::pi / planes_ *
            (std::cos(std::max(0.0, at - half)) - std::cos(std::min(std::numbers::pi, at + half)));
   };
-  for (std::size_t a = 0; a <= planes; ++a) {
-    out.azimuths.push_back(360.0 * static_cast<double>(a) / planes_);
-    for (std::size_t g = 0; g < zones; ++g) {
-      double flux = bins_[a % planes * zones + g], parts = 1;
-      // At a pole all planes are one direction.
-      if (g == 0 || g + 1 == zones) {
-        flux = 0, parts = planes_;
-        for (std::size_t other = 0; other < planes; ++other) flux += bins_[other * zones + g];
-      }
-      out.candela.push_back(flux / parts / solid_angle(g));
+  out.candela.resize((planes + 1) * zones);
+  for (std::size_t a = 0; a <= planes; ++a) out.azimuths.push_back(360.0 * static_cast<double>(a) / planes_);
+  for (std::size_t g = 0; g < zones; ++g) {
+    const auto bin = [&](std::size_t a) { return bins_[a % planes * zones + g]; };
+    // Towards the poles planes crowd: there the mean over as much of a ring as a zone is wide, at a pole,
+    // which is one direction, over all of it.
+    const double crowded =
+                     planes_ / (2.0 * zones_ * std::sin(std::numbers::pi * static_cast<double>(g) / zones_)),
+                 window = g == 0 || g + 1 == zones ? planes_ : std::clamp(crowded, 1.0, 1.0 * planes_);
+    const auto whole = static_cast<std::size_t>(0.5 * (window - 1));  // bins on either side
+    const double part = 0.5 * (window - 1) - static_cast<double>(whole);
+    for (std::size_t a = 0; a <= planes; ++a) {
+      double flux = bin(a) + part * (bin(a + whole + 1) + bin(a + planes - whole - 1));
+      for (std::size_t i = 1; i <= whole; ++i) flux += bin(a + i) + bin(a + planes - i);
+      out.candela[a * zones + g] = flux / window / solid_angle(g);
     }
   }
   const double scale = flux_ / sconce::flux(out);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLDF containers. The only place that names libzip.
+// GLDF containers.
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <memory>
 #include <pugixml.hpp>
 #include <set>
 
@@ -14,54 +11,15 @@
 #include "core/text.h"
 #include "photometry/formats.h"
 #include "photometry/lines.h"
+#include "photometry/zip_file.h"
 
 namespace sconce {
 
 namespace {
 
-constexpr zip_uint64_t kMostBytes = 64 << 20;  // of a file inside; more is a bomb
-
-class Container {
- public:
-  explicit Container(const std::filesystem::path& path) : where_(path.string()) {
-    int code = 0;
-    zip_.reset(::zip_open(path.c_str(), ZIP_RDONLY, &code));
-    if (zip_) return;
-    if (code == ZIP_ER_NOZIP) {
-      std::string begin(2, '\0');
-      std::ifstream(path, std::ios::binary).read(begin.data(), 2);
-      if (begin == "PK") throw Error(where_, "is a zip that is cut short or damaged");
-      throw NotMyFormat(where_, "is no GLDF container");
-    }
-    zip_error_t error;
-    ::zip_error_init_with_code(&error, code);
-    const std::string what = ::zip_error_strerror(&error);
-    ::zip_error_fini(&error);
-    throw Error(where_, "cannot be opened: " + what);
-  }
-
-  std::string read(const std::string& name) const {
-    zip_stat_t stat{};
-    if (::zip_stat(zip_.get(), name.c_str(), ZIP_FL_NOCASE, &stat) != 0)
-      throw Error(where_, "holds no file '" + name + "'");
-    if (stat.size > kMostBytes) throw Error(where_, "holds '" + name + "' of more than 64 MB");
-    const std::unique_ptr<zip_file_t, decltype(&::zip_fclose)> file(
-        ::zip_fopen_index(zip_.get(), stat.index, 0), &::zip_fclose);
-    std::string out(stat.size, '\0');
-    if (!file || ::zip_fread(file.get(), out.data(), stat.size) != static_cast<zip_int64_t>(stat.size))
-      throw Error(where_, "is damaged at '" + name + "'");
-    return out;
-  }
-  const std::string& where() const { return where_; }
-
- private:
-  std::string where_;
-  std::unique_ptr<zip_t, decltype(&::zip_discard)> zip_{nullptr, &::zip_discard};
-};
-
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : zip_(path), text_(zip_.read("product.xml")) {}
+  explicit Reader(const std::filesystem::path& path) : zip_(path, "GLDF"), text_(zip_.read("product.xml")) {}
 
   Photometry run() {
     const pugi::xml_parse_result parsed = document_.load_buffer(text_.data(), text_.size());
@@ -141,7 +99,7 @@ class Reader {
     return with_id("Files", "File", reference.attribute("fileId").value(), reference);
   }
 
-  Container zip_;
+  ZipFile zip_;
   std::string text_;
   pugi::xml_document document_;
   pugi::xml_node definitions_;

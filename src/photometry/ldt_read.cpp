@@ -200,6 +200,13 @@ class Reader {
       values.push_back(v);
     }
     if (negative > 0) note(fmt::format("{} intensities are negative and count as 0", negative));
+    std::size_t more = 0;
+    for (std::size_t i = line_; i < lines_.size(); ++i) more += parse_number(trim(lines_[i])).has_value();
+    if (more > 0)
+      note(fmt::format(
+          "{} numbers after the last intensity are ignored; do the symmetry (line 3) and the numbers of "
+          "planes and angles (lines 4 and 6) fit?",
+          more));
     const auto mirror = [&](auto&& image) {
       for (std::size_t i = 0; i < planes.size(); ++i)
         for (const double at : image(planes[i])) put(at, values, i);

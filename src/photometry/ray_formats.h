@@ -9,11 +9,37 @@
 #include <string>
 #include <vector>
 
+#include "core/observer.h"
 #include "photometry/rays.h"
 
 namespace sconce {
 
 using RaySink = std::function<void(std::span<const SourceRay>)>;
+
+/// What a ray carries: watts, lumens, and its colour of luminance 1.
+struct RayLight {
+  float flux;
+  Rgb color{1};
+};
+
+/// How a file says the colours of its rays. Where it has watts they become lumens by it.
+struct RayColors {
+  enum class By : uint8_t { none, wavelength, tristimulus, spectrum } by = By::none;
+  std::size_t column = 0;    ///< wavelength; X, with Z after it; number of the spectrum, from 1 on
+  bool watts = false;        ///< fluxes are watts, to be lumens
+  std::vector<Xyz> spectra;  ///< colour matching functions in the mean over each
+
+  /// @param v  numbers of a ray
+  RayLight of(const float* v, float flux) const;
+  /// Wavelengths of 100 and more are nanometres, others micrometres.
+  static RayLight of_wavelength(float wavelength, float flux, bool watts);
+};
+
+/// How many rays at a file's begin tell whether wavelengths are colours: where they are all alike, the
+/// wavelength is a mark that programs want, and a lamp of one line would be no lamp.
+inline constexpr std::size_t kLookedAt = 1000;
+/// What is said then.
+std::string one_wavelength(float wavelength);
 
 /// Checks rays as a file gives them, turns them into the luminaire's frame and hands them on in blocks, so
 /// that memory does not grow with the file.
@@ -26,7 +52,7 @@ class RayBlocks {
       : sink_(sink), where_(std::move(where)), unit_(static_cast<float>(unit)) {}
 
   /// @param direction  unit within 1 % @throws Error naming the ray
-  void add(const Vec3& position, const Vec3& direction, float flux);
+  void add(const Vec3& position, const Vec3& direction, const RayLight& light);
   void flush();
   uint64_t rays() const { return rays_; }
 
@@ -46,9 +72,10 @@ struct RayLayout {
   std::size_t numbers = 7;  ///< floats per ray
   bool placed = true;       ///< a position comes before the direction; else all start at `origin`
   std::size_t flux = 6;     ///< index of the flux among them
-  double unit = 1e-3;       ///< of positions, metres
-  Vec3 origin{0};           ///< in that unit
-  std::string assumed;      ///< what the file does not say, for a warning
+  RayColors colors;
+  double unit = 1e-3;   ///< of positions, metres
+  Vec3 origin{0};       ///< in that unit
+  std::string assumed;  ///< what the file does not say, for a warning
 };
 /// @throws NotMyFormat, Error
 RayLayout ray_layout(std::ifstream& in, uint64_t size, const std::string& where);

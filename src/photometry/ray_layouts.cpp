@@ -3,6 +3,7 @@
 // of them (TM25RaySetTools, pyansys' optical automation) and the shared examples show them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -41,6 +42,30 @@ class Bytes {
   std::string head_;
 };
 
+/// A table of wavelengths and weights, by trapezoids: the observer's functions in the mean over it.
+Xyz mean_of_spectrum(std::ifstream& in, int32_t pairs, const std::string& where) {
+  Xyz sum{};
+  double all = 0;
+  float last[2] = {}, next[2] = {};
+  for (int32_t i = 0; i < pairs; ++i, std::copy(next, next + 2, last)) {
+    in.read(reinterpret_cast<char*>(next), sizeof next);
+    if (!in || !(next[1] >= 0) || !std::isfinite(next[0]) || !std::isfinite(next[1]) ||
+        (i > 0 && !(next[0] > last[0])))
+      throw Error(where, fmt::format("is damaged at its value {}", i + 1),
+                  "ascending wavelengths with weights from 0 on");
+    if (i == 0) continue;
+    const double width = 0.5 * (static_cast<double>(next[0]) - static_cast<double>(last[0]));
+    for (const float* end : {last, next}) {
+      const Xyz eye = observer(static_cast<double>(end[0]));
+      const double weight = width * static_cast<double>(end[1]);
+      all += weight;
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * eye[c];
+    }
+  }
+  for (double& v : sum) v = all > 0 ? v / all : 0;
+  return sum;
+}
+
 /// IES TM-25-13: 256 bytes of numbers, 8 flags of what a ray holds, 9 texts of 1000 UTF-32 characters,
 /// spectra, labels of further columns, a text, rays.
 RayLayout tm25(const Bytes& head, std::ifstream& in, const std::string& where) {
@@ -73,7 +98,18 @@ RayLayout tm25(const Bytes& head, std::ifstream& in, const std::string& where) {
     in.read(reinterpret_cast<char*>(&pairs), sizeof pairs);
     if (!in || pairs < 0) throw Error(where, fmt::format("is damaged in spectrum {}", i + 1));
     out.offset += 4 + 8 * static_cast<uint64_t>(pairs);
+    out.colors.spectra.push_back(mean_of_spectrum(in, pairs, fmt::format("{}: spectrum {}", where, i + 1)));
   }
+  // Tristimulus values need Y, the luminous flux, beside X and Z.
+  std::size_t at = 6 + (radiant ? 1u : 0u);
+  const std::size_t by_wavelength = at;
+  at += (wavelength ? 1u : 0u) + (luminous ? 1u : 0u) + (flag(5) ? 3u : 0u);
+  if (flag(6) && luminous)
+    out.colors.by = RayColors::By::tristimulus, out.colors.column = at;
+  else if (flag(7) && spectra > 0)
+    out.colors.by = RayColors::By::spectrum, out.colors.column = at + (flag(6) ? 2u : 0u);
+  else if (wavelength)
+    out.colors.by = RayColors::By::wavelength, out.colors.column = by_wavelength;
   out.offset += 2048 * static_cast<uint64_t>(more) + 4 * static_cast<uint64_t>(text);
   return out;
 }
@@ -94,6 +130,7 @@ RayLayout light_tools(const Bytes& head, uint64_t size, const std::string& where
     throw Error(where, "has an origin that is no number");
   out.flux = out.placed ? 6 : 3;
   out.numbers = out.flux + (color == 2 ? 2 : 1);
+  if (color == 2) out.colors.by = RayColors::By::wavelength, out.colors.column = out.flux + 1;
   out.offset = 44;
   out.tail = 7;
   if (size > out.offset + out.tail) out.file.rays = (size - out.offset - out.tail) / (4 * out.numbers);
@@ -108,6 +145,7 @@ RayLayout zemax(const Bytes& head, const std::string& where) {
   if (format != 0 && format != 2) throw Error(where, fmt::format("is Zemax ray format {}", format), "0, 2");
   out.file = {"Zemax", head.at<uint32_t>(4), kind == 1, static_cast<double>(head.at<float>(112))};
   out.numbers = format == 2 ? 8 : 7;
+  if (format == 2) out.colors.by = RayColors::By::wavelength, out.colors.column = 7;
   out.offset = 208;
   return out;
 }
@@ -140,6 +178,7 @@ std::optional<RayLayout> speos(const Bytes& head, uint64_t size) {
   out.offset = kHeader;
   out.numbers = 8;
   out.flux = 7;
+  out.colors.by = RayColors::By::wavelength, out.colors.column = 6;
   return out;
 }
 

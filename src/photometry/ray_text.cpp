@@ -60,7 +60,9 @@ class Reader {
     const int count = numbers(v);
     if (count != 7 && count != 8) fail("is no ray", "7 or 8 numbers: place, direction, flux, wavelength");
     const auto f = [&](int i) { return static_cast<float>(v[i]); };
-    blocks.add({f(0), f(1), f(2)}, {f(3), f(4), f(5)}, f(6));
+    blocks.add({f(0), f(1), f(2)}, {f(3), f(4), f(5)},
+               colored_ && count == 8 ? RayColors::of_wavelength(f(7), f(6), watts_) : RayLight{f(6)});
+    held_ += static_cast<double>(f(6));
     if (blocks.rays() % RayBlocks::kBlock == 0) {
       progress_.check();
       progress_.at("bytes", static_cast<uint64_t>(std::max<std::streamoff>(0, in_.tellg())), size_);
@@ -89,6 +91,9 @@ class Reader {
       }
     }
     if (trim(line_) != "lt_startofdata") fail("ends before lt_startofdata");
+    look_at_colors();
+    watts_ = colored_ && !out.luminous;
+    if (watts_) out.luminous = true;
     RayBlocks blocks(sink_, where_, 1e-3);
     bool closed = false;
     while (!closed && next()) {
@@ -97,12 +102,13 @@ class Reader {
     }
     if (!closed) fail("ends before lt_endofdata");
     blocks.flush();
-    out.rays = blocks.rays();
+    out.rays = blocks.rays(), out.held = held_;
     return out;
   }
 
   /// How many rays and the code of their unit, then a line a ray.
   RayFile zemax(uint64_t count, double unit) {
+    look_at_colors();
     RayBlocks blocks(sink_, where_, zemax_unit(unit, fmt::format("{}:{}", where_, at_)));
     while (next())
       if (!trim(line_).empty()) ray(blocks);
@@ -111,12 +117,30 @@ class Reader {
     blocks.flush();
     progress_.warn(where_ +
                    ": the text does not say whether its fluxes are watts or lumens: lumens are assumed");
-    return {"Zemax text", count, true, 0};
+    return {"Zemax text", count, true, 0, held_};
+  }
+
+  /// Do the first rays have wavelengths, and not all the same?
+  void look_at_colors() {
+    const std::streampos begin = in_.tellg();
+    const uint64_t line = at_;
+    double v[8];
+    float first = 0;
+    for (std::size_t i = 0; i < kLookedAt && next() && numbers(v) == 8; ++i) {
+      if (i == 0) first = static_cast<float>(v[7]);
+      colored_ |= static_cast<float>(v[7]) != first;
+    }
+    if (!colored_ && first > 0) progress_.warn(where_ + ": " + one_wavelength(first));
+    in_.clear();
+    in_.seekg(begin);
+    at_ = line;
   }
 
   std::ifstream& in_;
   uint64_t size_, at_ = 0;
   std::string where_, line_;
+  bool colored_ = false, watts_ = false;
+  double held_ = 0;  ///< flux of all rays as they stand
   const RaySink& sink_;
   const Progress& progress_;
 };

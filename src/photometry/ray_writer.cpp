@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/observer.h"
 
 namespace sconce {
 
@@ -19,7 +20,7 @@ void put(std::string& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-std::string header(bool luminous, uint64_t rays, double flux) {
+std::string header(bool luminous, bool colored, uint64_t rays, double flux) {
   std::string out(kHeader, '\0');
   out.replace(0, 4, "TM25");
   put<int32_t>(out, 4, 2013);
@@ -30,24 +31,33 @@ std::string header(bool luminous, uint64_t rays, double flux) {
   constexpr std::string_view kDate = "1970-01-01T00:00:00+00:00";  // the same rays, the same bytes
   out.replace(28, kDate.size(), kDate);
   for (const std::size_t at : {64, 68, 72}) put(out, at, none);  // wavelengths
-  // Place, direction, radiant flux, wavelength, luminous flux, ...
+  // Place, direction, radiant flux, wavelength, luminous flux, Stokes, X and Z, spectrum.
   put<int32_t>(out, 256, 1), put<int32_t>(out, 260, 1);
   put<int32_t>(out, luminous ? 272 : 264, 1);
+  put<int32_t>(out, 280, colored ? 1 : 0);
   return out;
 }
 
 }  // namespace
 
-RayWriter::RayWriter(const std::filesystem::path& path, bool luminous)
-    : path_(path), beside_(path), out_(beside_.path(), std::ios::binary), luminous_(luminous) {
-  out_ << header(luminous, 0, 0);
+RayWriter::RayWriter(const std::filesystem::path& path, bool luminous, bool colored)
+    : path_(path),
+      beside_(path),
+      out_(beside_.path(), std::ios::binary),
+      luminous_(luminous),
+      colored_(colored) {
+  out_ << header(luminous, colored, 0, 0);
 }
 
 void RayWriter::add(std::span<const SourceRay> rays) {
   for (const SourceRay& ray : rays) {
     const Vec3 p = ray.position * kMetre, &d = ray.direction;
-    const float numbers[] = {p.x, -p.y, -p.z, d.x, -d.y, -d.z, ray.flux};
-    out_.write(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    const Xyz xyz = xyz_of(ray.color);
+    const auto beside_y = [&](std::size_t i) {
+      return static_cast<float>(static_cast<double>(ray.flux) * xyz[i] / xyz[1]);
+    };
+    const float numbers[] = {p.x, -p.y, -p.z, d.x, -d.y, -d.z, ray.flux, beside_y(0), beside_y(2)};
+    out_.write(reinterpret_cast<const char*>(numbers), (colored_ ? 9 : 7) * sizeof(float));
     flux_ += static_cast<double>(ray.flux);
   }
   rays_ += rays.size();
@@ -55,7 +65,7 @@ void RayWriter::add(std::span<const SourceRay> rays) {
 
 void RayWriter::finish() {
   out_.seekp(0);
-  out_ << header(luminous_, rays_, flux_);
+  out_ << header(luminous_, colored_, rays_, flux_);
   out_.close();
   if (!out_) throw Error(path_.string(), "cannot be written");
   beside_.commit();

@@ -13,7 +13,8 @@ namespace sconce {
 class RayWriter {
  public:
   /// @param luminous  are fluxes lumens, else watts
-  RayWriter(const std::filesystem::path& path, bool luminous);
+  /// @param colored  tristimulus values, too. @pre luminous then
+  RayWriter(const std::filesystem::path& path, bool luminous, bool colored = false);
 
   void add(std::span<const SourceRay> rays);
   /// Number and flux go into the header; the file takes its name. @throws Error
@@ -23,7 +24,7 @@ class RayWriter {
   std::filesystem::path path_;
   Beside beside_;
   std::ofstream out_;
-  bool luminous_;
+  bool luminous_, colored_;
   uint64_t rays_ = 0;
   double flux_ = 0;
 };

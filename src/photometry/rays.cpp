@@ -11,7 +11,39 @@
 
 namespace sconce {
 
-void RayBlocks::add(const Vec3& position, const Vec3& direction, float flux) {
+RayLight RayColors::of_wavelength(float wavelength, float flux, bool watts) {
+  const auto length = static_cast<double>(wavelength);
+  const Xyz eye = observer(length < 100 ? 1000 * length : length);
+  return {watts ? static_cast<float>(static_cast<double>(flux) * kLumensPerWatt * eye[1]) : flux,
+          color_of(eye)};
+}
+
+RayLight RayColors::of(const float* v, float flux) const {
+  switch (by) {
+    case By::wavelength:
+      return of_wavelength(v[column], flux, watts);
+    case By::tristimulus:
+      return {flux, color_of({static_cast<double>(v[column]), static_cast<double>(flux),
+                              static_cast<double>(v[column + 1])})};
+    case By::spectrum: {
+      const float number = v[column];
+      if (!(number >= 1 && number <= static_cast<float>(spectra.size()))) return {flux};
+      const Xyz& eye = spectra[static_cast<std::size_t>(number) - 1];
+      return {watts ? static_cast<float>(static_cast<double>(flux) * kLumensPerWatt * eye[1]) : flux,
+              color_of(eye)};
+    }
+    default:
+      return {flux};
+  }
+}
+
+std::string one_wavelength(float wavelength) {
+  return fmt::format("all rays have the wavelength {:g}: taken for a mark and not for their colour",
+                     wavelength);
+}
+
+void RayBlocks::add(const Vec3& position, const Vec3& direction, const RayLight& light) {
+  const float flux = light.flux;
   ++rays_;
   const float length = glm::length(direction);
   if (!(std::abs(length - 1) < 0.01f) || !std::isfinite(position.x + position.y + position.z) ||
@@ -19,7 +51,7 @@ void RayBlocks::add(const Vec3& position, const Vec3& direction, float flux) {
     throw Error(where_, fmt::format("holds no ray at number {}", rays_),
                 "a unit direction, a place and a flux from 0 on");
   block_.push_back({Vec3(position.x, -position.y, -position.z) * unit_,
-                    Vec3(direction.x, -direction.y, -direction.z) / length, flux});
+                    Vec3(direction.x, -direction.y, -direction.z) / length, flux, light.color});
   if (block_.size() == kBlock) flush();
 }
 
@@ -27,6 +59,31 @@ void RayBlocks::flush() {
   if (!block_.empty()) sink_(block_);
   block_.clear();
 }
+
+namespace {
+
+/// Keeps a file's colours where they are some, and lumens of its watts then.
+void look_at_colors(RayLayout& layout, std::ifstream& in, const std::string& where,
+                    const Progress& progress) {
+  RayColors& colors = layout.colors;
+  if (colors.by == RayColors::By::wavelength) {
+    std::vector<float> numbers(std::min<uint64_t>(kLookedAt, layout.file.rays) * layout.numbers);
+    in.seekg(static_cast<std::streamoff>(layout.offset));
+    in.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(4 * numbers.size()));
+    in.clear();
+    bool alike = true;
+    for (std::size_t i = colors.column; i < numbers.size(); i += layout.numbers)
+      alike &= numbers[i] == numbers[colors.column];
+    if (alike) {
+      if (!numbers.empty()) progress.warn(where + ": " + one_wavelength(numbers[colors.column]));
+      colors.by = RayColors::By::none;
+    }
+  }
+  colors.watts = !layout.file.luminous && colors.by != RayColors::By::none;
+  if (colors.watts) layout.file.luminous = true;
+}
+
+}  // namespace
 
 RayFile read_rays(const std::filesystem::path& path,
                   const std::function<void(std::span<const SourceRay>)>& sink, const Progress& progress) {
@@ -53,6 +110,7 @@ RayFile read_rays(const std::filesystem::path& path,
     throw Error(where,
                 fmt::format("has {} bytes, which do not fit {} rays of {} numbers after a header of {} bytes",
                             size, rays, layout.numbers, layout.offset));
+  look_at_colors(layout, in, where, progress);
   if (!layout.assumed.empty()) progress.warn(where + ": " + layout.assumed);
   in.seekg(static_cast<std::streamoff>(layout.offset));
   std::vector<float> numbers(std::min<uint64_t>(RayBlocks::kBlock, rays) * layout.numbers);
@@ -64,7 +122,9 @@ RayFile read_rays(const std::filesystem::path& path,
     if (!in) throw Error(where, fmt::format("is cut short after ray {}", done));
     for (std::size_t i = 0; i < count; ++i) {
       const float *v = &numbers[i * layout.numbers], *d = v + direction;
-      blocks.add(layout.placed ? Vec3(v[0], v[1], v[2]) : layout.origin, {d[0], d[1], d[2]}, v[layout.flux]);
+      layout.file.held += static_cast<double>(v[layout.flux]);
+      blocks.add(layout.placed ? Vec3(v[0], v[1], v[2]) : layout.origin, {d[0], d[1], d[2]},
+                 layout.colors.of(v, v[layout.flux]));
     }
     blocks.flush();
     done += count;

@@ -6,11 +6,15 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/observer.h"
 #include "core/sobol.h"
 #include "core/test_data.h"
 #include "core/test_folder.h"
@@ -40,14 +44,26 @@ TEST(Rays, ThreeRaysInFourLayouts) {
   for (const char* name :
        {"ThreeRays_PowerOnly.1.ray", "ThreeRays_Wavelength.1.ray", "ThreeRays_Wavelength_ZMX.ray",
         "ThreeRays_Wavelength_ZMW_to_LT.ray", "ThreeRays_Wavelength.1.txt"}) {
-    const auto rays = all_rays(folder() / "RayFileConverter" / name);
+    RayFile file;
+    const auto rays = all_rays(folder() / "RayFileConverter" / name, &file);
     ASSERT_EQ(rays.size(), 3u) << name;
     EXPECT_NEAR(rays[0].position.x, -0.6668399e-3f, 1e-9f) << name;
     EXPECT_NEAR(rays[0].position.y, 0.3333333e-3f, 1e-9f) << name;
     EXPECT_NEAR(rays[0].direction.x, -0.8660254f, 1e-6f) << name;
     EXPECT_NEAR(rays[0].direction.z, -0.5f, 1e-6f) << name;
     EXPECT_NEAR(rays[2].direction.y, 0.9682459f, 1e-6f) << name;
-    EXPECT_NEAR(rays[1].flux, 0.004659902f, 1e-8f) << name;
+    EXPECT_NEAR(file.held, 0.0093198, 1e-7) << name;
+    // Watts of 550, 450 and 620 nm are lumens.
+    const bool colored = std::string_view(name).find("Wavelength") != std::string_view::npos;
+    EXPECT_EQ(file.luminous, colored) << name;
+    EXPECT_NEAR(rays[1].flux, colored ? 0.004659902f * 683 * 0.038f : 0.004659902f, 1e-6f) << name;
+    const Xyz blue = xyz_of(rays[1].color);
+    if (colored) {
+      EXPECT_NEAR(blue[0] / blue[1], 0.3362 / 0.038, 0.01) << name;
+      EXPECT_NEAR(blue[2] / blue[1], 1.7721 / 0.038, 0.05) << name;
+    } else {
+      EXPECT_EQ(rays[1].color, Rgb(1));
+    }
   }
 }
 
@@ -134,6 +150,24 @@ TEST(Rays, FarFieldIsTheOneTheyWereDrawnFrom) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(compared)), 0.1);
 }
 
+// Planes crowd about the pole; a table of many must not show the noise of the few rays between them there.
+TEST(Rays, FarFieldIsEvenAboutThePole) {
+  FarFieldBins bins(72, 180);
+  std::vector<SourceRay> rays;
+  constexpr uint32_t kRays = 1 << 19;
+  for (uint32_t i = 0; i < kRays; ++i) {  // Lambertian
+    const Vec2 u = sobol_pair(i, 0, 3);
+    const float s = std::sqrt(u.x), phi = 2 * kPi * u.y;
+    rays.push_back({Vec3(0), {s * std::cos(phi), s * std::sin(phi), -std::sqrt(1 - u.x)}, kPi / kRays});
+  }
+  bins.add(rays);
+  const Photometry table = bins.table();
+  for (std::size_t a = 0; a < table.azimuths.size(); ++a)
+    for (std::size_t g = 0; g < 12; ++g)
+      EXPECT_NEAR(table.at(a, g), std::cos(static_cast<double>(g) * std::numbers::pi / 180), 0.35)
+          << a << " " << g;
+}
+
 template <class... T>
 std::string bytes_of(T... values) {
   std::string out;
@@ -156,14 +190,16 @@ TEST(Rays, OtherLayouts) {
         << format;
     EXPECT_LT(glm::length(rays[0].direction - Vec3(0, 0, -1)), 1e-6f) << format;
     EXPECT_LT(glm::length(rays[1].direction - Vec3(0, -0.6f, -0.8f)), 1e-6f) << format;
-    EXPECT_EQ(rays[0].flux, 0.25f) << format;
-    EXPECT_EQ(rays[1].flux, 0.5f) << format;
+    // Where wavelengths are told, 683 lm/W at 550 and 620 nm.
+    const bool lumens = std::string_view(format) == "SPEOS";
+    EXPECT_FLOAT_EQ(rays[0].flux, lumens ? 0.25f * 683 * 0.995f : 0.25f) << format;
+    EXPECT_FLOAT_EQ(rays[1].flux, lumens ? 0.5f * 683 * 0.381f : 0.5f) << format;
   };
   const auto ray = [](float dy, float dz) { return bytes_of(1.0f, 2.0f, 3.0f, 0.0f, dy, dz); };
   expect_two(
       folder.write("speos.ray", bytes_of(0.75f, 0, 0, 0, 0, 0, 200.0f) + ray(0, 1) + bytes_of(550.0f, 0.25f) +
                                     ray(0.6f, 0.8f) + bytes_of(620.0f, 0.5f)),
-      "SPEOS", false, true);
+      "SPEOS", true, true);
   std::string asap =
       bytes_of(4 * 256 * 7 + 247) + std::string(104, '\0') + bytes_of(-2) + std::string(28, '\0');
   expect_two(folder.write("rays.dis", asap + ray(0, 1) + bytes_of(0.25f) + ray(0.6f, 0.8f) + bytes_of(0.5f)),
@@ -195,6 +231,61 @@ TEST(Rays, OtherLayouts) {
   EXPECT_NE(error("a.ray", "# LightTools 9\nlt_startofdata\n1 2 3 0 0 1 1\n")
                 .find("a.ray:3: ends before lt_endofdata"),
             std::string::npos);
+}
+
+/// A TM-25 file of watts that are luminous by spectra, of lumens with tristimulus values, and of one
+/// wavelength.
+TEST(Rays, ColoursOfTm25) {
+  const TemporaryFolder folder;
+  const auto file = [&](std::array<int, 8> flags, const std::string& spectra, int count,
+                        const std::string& rays) {
+    std::string head = "TM25" + bytes_of(2013, 0, 0.0f, 0.0f, uint64_t{2}) + std::string(256 - 28, '\0');
+    std::memcpy(head.data() + 76, &count, sizeof count);
+    for (const int flag : flags) head += bytes_of(flag);
+    return folder.write("colours.tm25ray", head + std::string(36000, '\0') + spectra + rays);
+  };
+  const std::string at = bytes_of(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+  // Equal energy from 380 to 770 nm, whose luminosity integrates to 106.857 nm; one line of 600 nm.
+  std::string flat = bytes_of(40);
+  for (int i = 0; i < 40; ++i) flat += bytes_of(380.0f + 10 * static_cast<float>(i), 1.0f);
+  flat += bytes_of(2, 600.0f, 2.0f, 600.001f, 2.0f);
+  RayFile read;
+  auto rays = all_rays(
+      file({1, 1, 1, 0, 0, 0, 0, 1}, flat, 2, at + bytes_of(1.0f, 1.0f) + at + bytes_of(2.0f, 2.0f)), &read);
+  EXPECT_TRUE(read.luminous);
+  EXPECT_NEAR(read.held, 3, 1e-6);
+  EXPECT_NEAR(rays[0].flux, 683 * 106.857 / 390, 0.2);
+  EXPECT_NEAR(rays[1].flux, 2 * 683 * 0.631, 0.01);
+  const Xyz even = xyz_of(rays[0].color);  // illuminant E
+  EXPECT_NEAR(even[0], 1, 0.003);
+  EXPECT_NEAR(even[2], 1, 0.003);
+  // Lumens, X and Z.
+  rays = all_rays(file({1, 1, 0, 0, 1, 0, 1, 0}, "", 0,
+                       at + bytes_of(2.0f, 1.9f, 2.2f) + at + bytes_of(1.0f, 1.0f, 0.5f)),
+                  &read);
+  EXPECT_EQ(rays[0].flux, 2);
+  EXPECT_NEAR(xyz_of(rays[0].color)[0], 0.95, 1e-4);
+  EXPECT_NEAR(xyz_of(rays[1].color)[2], 0.5, 1e-4);
+  // Written with their colours, they come back.
+  RayWriter writer(folder / "again.tm25ray", true, true);
+  writer.add(rays);
+  writer.finish();
+  const auto again = all_rays(folder / "again.tm25ray");
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again[i].flux, rays[i].flux);
+    EXPECT_LT(std::abs((again[i].color - rays[i].color).b), 1e-4f);
+    EXPECT_LT(std::abs((again[i].color - rays[i].color).r), 1e-4f);
+  }
+  // One wavelength is a mark: watts stay watts.
+  Progress progress;
+  std::string said;
+  progress.warning = [&](const std::string& line) { said = line; };
+  const auto path =
+      file({1, 1, 1, 1, 0, 0, 0, 0}, "", 0, at + bytes_of(1.0f, 550.0f) + at + bytes_of(1.0f, 550.0f));
+  read = read_rays(
+      path, [](std::span<const SourceRay>) {}, progress);
+  EXPECT_FALSE(read.luminous);
+  EXPECT_NE(said.find("all rays have the wavelength 550"), std::string::npos) << said;
 }
 
 /// Peak memory of this process, bytes.

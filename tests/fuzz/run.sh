@@ -78,6 +78,7 @@ END
 END
   (cd "$work/zip" && cmake -E tar cf ../lamp.gldf --format=zip product.xml ldc/lamp.ies)
   take gldf "$work/lamp.gldf"
+  take l3d "$data"/photometry/l3d/*/structure.xml
   take rays "$data"/photometry/tm25/*/*.ray "$data"/photometry/tm25/*/*.txt
   local file
   for file in "$data"/photometry/tm25/*ray "$data"/photometry/tm25/*/*25ray; do
