@@ -36,41 +36,87 @@ std::vector<glm::dvec2> curve(const Photometry& p, double c, double scale, const
 }
 
 constexpr Color8 kGrid{0xcc, 0xcc, 0xcc}, kText{0x55, 0x55, 0x55}, kC0{0xc0, 0x20, 0x20},
-    kC90{0x20, 0x40, 0xc0}, kBlack{};
+    kC90{0x20, 0x40, 0xc0}, kPeak{0x20, 0x80, 0x30}, kBlack{};
+constexpr double kUplight = 0.005;   // of the flux; with less the diagram is of the lower half
+constexpr double kPeakAbove = 1.03;  // what another plane must have of the drawn ones' peak to be drawn, too
+constexpr double kLegend = 110;      // between its entries
+
+double peak_in(const Photometry& p, double c) {
+  double out = 0;
+  for (const double gamma : p.polars)
+    out = std::max({out, intensity_at(p, c, gamma), intensity_at(p, std::fmod(c + 180, 360), gamma)});
+  return out;
+}
+
+std::string figures(const Photometry& p) {
+  const double lumens = flux(p), watts = p.lamps.empty() ? 0 : p.lamps.front().watts;
+  std::string out = lumens < 100 ? fmt::format("{:.3g} lm", lumens) : fmt::format("{:.0f} lm", lumens);
+  if (watts > 0) out += fmt::format(" · {:.3g} W · {:.0f} lm/W", watts, lumens / watts);
+  return out + fmt::format(" · {:.0f}° × {:.0f}° at half of the peak (C0 × C90)", beam_angle(p, 0, 0.5),
+                           beam_angle(p, 90, 0.5));
+}
 
 }  // namespace
+
+void add_title(Drawing& drawing, const Photometry& p, const std::string& title, double middle) {
+  constexpr std::size_t kMost = 72;  // characters that fit
+  const auto fitting = [](std::string text) {
+    if (text.size() <= kMost) return text;
+    std::size_t end = kMost - 3;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter
+    return text.substr(0, end) + "...";
+  };
+  const std::string name = p.keyword("LUMINAIRE");
+  std::string more;
+  for (const std::string& part : {p.keyword("MANUFAC"), p.keyword("LUMCAT"), name.empty() ? "" : title})
+    if (!part.empty() && part != name) more += (more.empty() ? "" : " · ") + part;
+  drawing.labels.push_back(
+      {{middle, 18}, fitting(name.empty() ? title : name), kBlack, Drawing::Label::Anchor::middle, 12});
+  drawing.labels.push_back({{middle, 34}, fitting(more), kText, Drawing::Label::Anchor::middle, 10});
+}
 
 Drawing polar_diagram(const Photometry& given, const std::string& title) {
   using Anchor = Drawing::Label::Anchor;
   const Photometry p = as_type_c(given);
-  const double peak = std::max(peak_of(p).candela, 1e-9), step = ring_step(peak);
+  const Peak highest = peak_of(p);
+  const double peak = std::max(highest.candela, 1e-9), step = ring_step(peak);
   const int rings = static_cast<int>(std::ceil(peak / step - 1e-9));
   const double scale = kRadius / (rings * step);
-  const glm::dvec2 center(kCentre, kTitle + kCentre);
+  const bool whole = downward_fraction(p) < 1 - kUplight;
+  const double reach = whole ? 180 : 90;
+  const glm::dvec2 center(kCentre, kTitle + (whole ? kCentre : kMargin));
   Drawing out;
-  out.width = 2 * kCentre, out.height = 2 * kCentre + kTitle + 20;
-  out.labels.push_back({{kCentre, 20}, title, kBlack, Anchor::middle, 13});
-  for (int ring = 1; ring <= rings; ++ring) out.circle(center, ring * step * scale, kGrid);
-  for (int angle = 0; angle < 180; angle += 30) {
-    const glm::dvec2 to = kRadius * glm::dvec2(std::sin(angle * kDegree), std::cos(angle * kDegree));
-    out.lines.push_back({{{center - to, center + to}}, kGrid});
-  }
-  for (int angle = 0; angle <= 180; angle += 30)
+  out.width = 2 * kCentre, out.height = center.y + kCentre + 34;
+  add_title(out, p, title, kCentre);
+  for (int ring = 1; ring <= rings; ++ring) out.arc(center, ring * step * scale, -reach, reach, kGrid);
+  for (int angle = -180; angle < 180; angle += 30)
+    if (std::abs(angle) <= reach)
+      out.lines.push_back(
+          {{{center, center + kRadius * glm::dvec2(std::sin(angle * kDegree), std::cos(angle * kDegree))}},
+           kGrid});
+  for (int angle = 0; angle <= static_cast<int>(reach); angle += 30)
     for (const int side : {-1, 1}) {
       if (side < 0 && angle % 180 == 0) continue;
       out.labels.push_back({center + glm::dvec2(side * (kRadius + 18) * std::sin(angle * kDegree),
                                                 4 + (kRadius + 14) * std::cos(angle * kDegree)),
                             fmt::format("{}°", angle), kText, Anchor::middle});
     }
-  for (int ring = 1; ring <= rings; ++ring)
-    out.labels.push_back(
-        {center + glm::dvec2(3, ring * step * scale - 2), fmt::format("{:g}", ring * step), kText});
   out.lines.push_back({{curve(p, 0, scale, center)}, kC0, 2});
   out.lines.push_back({{curve(p, 90, scale, center)}, kC90, 2, 6});
-  const double foot = 2 * kCentre + kTitle + 8;
-  out.labels.push_back({{10, foot}, "C180 - C0", kC0});
-  out.labels.push_back({{90, foot}, "C270 - C90", kC90});
-  out.labels.push_back({{2 * kCentre - 10, foot}, "cd", kBlack, Anchor::end});
+  for (int ring = 1; ring <= rings; ++ring)
+    out.labels.push_back({center + glm::dvec2(3, ring * step * scale - 3),
+                          fmt::format("{:g}{}", ring * step, ring == rings ? " cd" : ""), kText,
+                          Anchor::start, 10, true});
+  const double foot = center.y + kCentre + 6;
+  out.labels.push_back({{10, foot}, "C180 – C0", kC0});
+  out.labels.push_back({{10 + kLegend, foot}, "C270 – C90 (dashed)", kC90});
+  if (const double c = std::fmod(highest.azimuth, 180);
+      peak > kPeakAbove * std::max(peak_in(p, 0), peak_in(p, 90))) {
+    out.lines.push_back({{curve(p, c, scale, center)}, kPeak, 2, 2});
+    out.labels.push_back(
+        {{10 + 2.4 * kLegend, foot}, fmt::format("C{:g} – C{:g} (dotted)", c + 180, c), kPeak});
+  }
+  out.labels.push_back({{10, foot + 20}, figures(p), kBlack});
   return out;
 }
 

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/stroke_font.h"
+
 namespace sconce {
 
 namespace {
 
-constexpr double kGap = 2.0 / 3;  // of a dash
+constexpr double kGap = 2.0 / 3;             // of a dash
+constexpr double kPen = 0.085, kRim = 0.36;  // widths of letters' lines and of the rim, of a font's size
 
 std::string hex(const Color8& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
@@ -30,12 +33,19 @@ std::string escaped_xml(const std::string& text) {
   return out;
 }
 
-/// What a line covers of each pixel, 0 to 1.
+/// What lines cover of each pixel of a rectangle, 0 to 1.
 class Coverage {
  public:
-  Coverage(int width, int height) : width_(width), height_(height), shares_(area(), 0.0f) {}
+  /// @param low, high  of the rectangle, pixels; what of it lies outside of the picture is left out
+  Coverage(const Image8& picture, const glm::dvec2& low, const glm::dvec2& high)
+      : left_(std::clamp(static_cast<int>(std::floor(low.x)), 0, picture.width)),
+        top_(std::clamp(static_cast<int>(std::floor(low.y)), 0, picture.height)),
+        width_(std::clamp(static_cast<int>(std::ceil(high.x)), left_, picture.width) - left_),
+        height_(std::clamp(static_cast<int>(std::ceil(high.y)), top_, picture.height) - top_),
+        shares_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f) {}
 
-  void add(const glm::dvec2& a, const glm::dvec2& b, double width) {
+  void add(const glm::dvec2& from, const glm::dvec2& to, double width) {
+    const glm::dvec2 corner(left_, top_), a = from - corner, b = to - corner;
     const double reach = 0.5 * width + 1;
     const auto first = [&](double v) { return std::max(0, static_cast<int>(v - reach)); };
     for (int y = first(std::min(a.y, b.y)); y < std::min<double>(height_, std::max(a.y, b.y) + reach); ++y)
@@ -50,17 +60,22 @@ class Coverage {
       }
   }
   void paint(Image8& picture, const Color8& color) const {
-    for (std::size_t i = 0; i < shares_.size(); ++i)
-      for (std::size_t c = 0; c < 3 && shares_[i] > 0; ++c) {
-        unsigned char& to = picture.data[3 * i + c];
-        to = static_cast<unsigned char>(std::lround(
-            static_cast<float>(to) + shares_[i] * (static_cast<float>(color[c]) - static_cast<float>(to))));
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const float share = shares_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                    static_cast<std::size_t>(x)];
+        unsigned char* to =
+            &picture.data[3 * (static_cast<std::size_t>(top_ + y) * static_cast<std::size_t>(picture.width) +
+                               static_cast<std::size_t>(left_ + x))];
+        for (std::size_t c = 0; c < 3 && share > 0; ++c)
+          to[c] = static_cast<unsigned char>(
+              std::lround(static_cast<float>(to[c]) +
+                          share * (static_cast<float>(color[c]) - static_cast<float>(to[c]))));
       }
   }
 
  private:
-  std::size_t area() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-  int width_, height_;
+  int left_, top_, width_, height_;
   std::vector<float> shares_;
 };
 
@@ -90,12 +105,12 @@ void trace(Coverage& coverage, const Drawing::Line& line, const std::vector<glm:
 
 }  // namespace
 
-void Drawing::circle(const glm::dvec2& center, double radius, const Color8& color) {
+void Drawing::arc(const glm::dvec2& center, double radius, double from, double to, const Color8& color) {
   constexpr int kSides = 120;
   std::vector<glm::dvec2> points;
   for (int i = 0; i <= kSides; ++i) {
-    const double a = 2 * std::numbers::pi * i / kSides;
-    points.push_back(center + radius * glm::dvec2(std::cos(a), std::sin(a)));
+    const double a = (from + (to - from) * i / kSides) * std::numbers::pi / 180;
+    points.push_back(center + radius * glm::dvec2(std::sin(a), std::cos(a)));
   }
   lines.push_back({{std::move(points)}, color});
 }
@@ -118,9 +133,12 @@ std::string svg_of(const Drawing& drawing) {
   constexpr const char* kAnchors[] = {"start", "middle", "end"};
   for (const Drawing::Label& label : drawing.labels)
     out += fmt::format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"{:g}\" text-anchor=\"{}\">{}</text>\n",
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"{:g}\" text-anchor=\"{}\"{}>{}</text>\n",
         label.at.x, label.at.y, hex(label.color), label.size,
-        kAnchors[static_cast<std::size_t>(label.anchor)], escaped_xml(label.text));
+        kAnchors[static_cast<std::size_t>(label.anchor)],
+        label.over ? " stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+                   : "",
+        escaped_xml(label.text));
   return out + "</svg>\n";
 }
 
@@ -131,21 +149,26 @@ Image8 picture_of(const Drawing& drawing, int scale) {
              {}};
   out.data.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 3, 255);
   for (const Drawing::Line& line : drawing.lines) {
-    Coverage coverage(out.width, out.height);
+    Coverage coverage(out, glm::dvec2(0), glm::dvec2(out.width, out.height));
     for (const std::vector<glm::dvec2>& points : line.strokes) trace(coverage, line, points, scale);
     coverage.paint(out, line.color);
   }
   for (const Drawing::Label& label : drawing.labels) {
-    std::string text;  // the font is ASCII
-    for (const char c : label.text)
-      if (static_cast<unsigned char>(c) < 128) text += c;
-    const int dot = std::max(1, static_cast<int>(std::lround(label.size * scale / 11 * 0.9)));
-    const int width = text_width(text, dot);
-    const int left = label.anchor == Drawing::Label::Anchor::start    ? 0
-                     : label.anchor == Drawing::Label::Anchor::middle ? width / 2
-                                                                      : width;
-    draw_text(out, static_cast<int>(label.at.x * scale) - left,
-              static_cast<int>(label.at.y * scale) - text_height(dot), text, dot, label.color);
+    const double size = label.size * scale, width = stroke_text_width(label.text, size);
+    const glm::dvec2 begin(
+        scale * label.at.x - (label.anchor == Drawing::Label::Anchor::start    ? 0
+                              : label.anchor == Drawing::Label::Anchor::middle ? 0.5 * width
+                                                                               : width),
+        scale * label.at.y);
+    const glm::dvec2 low = begin - glm::dvec2(size), high = begin + glm::dvec2(width + size, size);
+    Coverage letters(out, low, high), rim(out, low, high);
+    for (const std::vector<glm::dvec2>& stroke : strokes_of(label.text, size))
+      for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+        letters.add(begin + stroke[i], begin + stroke[i + 1], std::max(1.0, kPen * size));
+        if (label.over) rim.add(begin + stroke[i], begin + stroke[i + 1], kRim * size);
+      }
+    rim.paint(out, {255, 255, 255});
+    letters.paint(out, label.color);
   }
   return out;
 }

@@ -23,17 +23,19 @@ struct Drawing {
     Color8 color{};
     enum class Anchor { start, middle, end } anchor = Anchor::start;
     double size = 11;
+    bool over = false;  ///< lines: with a white rim, to be read there
   };
 
   double width = 0, height = 0;  ///< y runs down
   std::vector<Line> lines;
   std::vector<Label> labels;
 
-  void circle(const glm::dvec2& center, double radius, const Color8& color);
+  /// The part of a circle between two angles from straight down, degrees to the right.
+  void arc(const glm::dvec2& center, double radius, double from, double to, const Color8& color);
 };
 
 std::string svg_of(const Drawing& drawing);
-/// Smooth lines on white. Of a label's letters the font has capitals, figures and a few signs.
+/// Smooth lines on white.
 /// @param scale  pixels per unit
 Image8 picture_of(const Drawing& drawing, int scale);
 

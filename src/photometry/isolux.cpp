@@ -55,6 +55,14 @@ std::vector<std::vector<glm::dvec2>> contour(const std::vector<double>& lux, dou
   return out;
 }
 
+/// 1, 2 or 5 times a power of ten, four to ten of them across a length.
+double tick_step(double length) {
+  const double rough = length / 10, power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double m : {1.0, 2.0, 5.0})
+    if (m * power >= rough * (1 - 1e-9)) return m * power;
+  return 10 * power;
+}
+
 /// From red (the brightest) to blue.
 Color8 color_of(int line) {
   Color8 out;
@@ -77,7 +85,7 @@ Drawing isolux_diagram(const Photometry& given, const std::string& title, double
   const glm::dvec2 middle(kMargin + kSize / 2, top + kSize / 2);
   Drawing out;
   out.width = kSize + 2 * kMargin, out.height = kSize + 2 * kMargin + kTitle + 20;
-  out.labels.push_back({{middle.x, 20}, title, kBlack, Anchor::middle, 13});
+  add_title(out, given, title, middle.x);
   const auto corner = [&](int x, int y) { return glm::dvec2(kMargin + x * kSize, top + y * kSize); };
   out.lines.push_back({{{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), corner(0, 0)}}, kGrid});
   // 1, 2, 5 times powers of ten below the brightest point, three decades of them at most.
@@ -94,11 +102,21 @@ Drawing isolux_diagram(const Photometry& given, const std::string& title, double
     }
   for (const glm::dvec2& arm : {glm::dvec2(6, 0), glm::dvec2(0, 6)})
     out.lines.push_back({{{middle - arm, middle + arm}}, kMark});
-  out.labels.push_back({{kMargin + kSize - 20, middle.y + 4}, "C0", kBlack});
-  out.labels.push_back({{middle.x, top + 14}, "C90", kBlack, Anchor::middle});
-  out.labels.push_back({{kMargin, kTitle + 2 * kMargin + kSize},
-                        fmt::format("floor {0:g} m below, {1:g} x {1:g} m, {2:.4g} lx at most", height,
-                                    kHeights * height, most),
+  out.labels.push_back({{kMargin + kSize - 6, middle.y + 4}, "C0", kBlack, Anchor::end, 11, true});
+  out.labels.push_back({{middle.x, top + 16}, "C90", kBlack, Anchor::middle, 11, true});
+  const double unit = kSize / (kHeights * height), step = tick_step(kHeights * height);
+  for (int i = -static_cast<int>(0.5 * kHeights * height / step); i * step <= 0.5 * kHeights * height; ++i) {
+    const double at = i * step * unit;
+    out.lines.push_back({{{{middle.x + at, top + kSize}, {middle.x + at, top + kSize + 4}}}, kMark});
+    out.lines.push_back({{{{kMargin, middle.y - at}, {kMargin - 4, middle.y - at}}}, kMark});
+    out.labels.push_back(
+        {{middle.x + at, top + kSize + 16}, fmt::format("{:g}", i * step), kMark, Anchor::middle, 10});
+    out.labels.push_back(
+        {{kMargin - 8, middle.y - at + 4}, fmt::format("{:g}", i * step), kMark, Anchor::end, 10});
+  }
+  out.labels.push_back({{kMargin + kSize + 8, top + kSize + 16}, "m", kMark, Anchor::start, 10});
+  out.labels.push_back({{kMargin, kTitle + 2 * kMargin + kSize + 4},
+                        fmt::format("lux on a floor {:g} m below, {:.4g} at most", height, most),
                         kBlack});
   return out;
 }
