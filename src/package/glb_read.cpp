@@ -288,7 +288,13 @@ class Reader {
       v.at("bufferView").fail("does not hold as many pixels as the slide has");
     slide.data.resize(3 * slide.pixels());
     std::memcpy(slide.data.data(), bytes.data(), bytes.size());
-    return {std::make_shared<Image>(std::move(slide)), v.at("yfov").real(), v.at("aspect").real()};
+    for (const float value : slide.data)
+      if (!(value >= 0 && std::isfinite(value)))
+        v.at("bufferView").fail("has pixels that are negative or no numbers");
+    const float yfov = v.at("yfov").real(), aspect = v.at("aspect").real();
+    if (!(yfov > 0 && yfov < kPi && aspect > 0))
+      v.fail("has a yfov or aspect out of range", "0 < yfov < pi, aspect > 0");
+    return {std::make_shared<Image>(std::move(slide)), yfov, aspect};
   }
 
   Light punctual(const JsonValue& v) const {
