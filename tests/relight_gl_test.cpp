@@ -30,8 +30,8 @@ class DirectLight : public testing::Test {
 
   Image by_rays(const std::vector<Light>& lights, const std::vector<MovedGroup>& groups = {},
                 int samples = 1) {
-    lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(), MoreLights{lights},
-                                          groups);
+    lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(),
+                                          MoreLights{lights, luminaires_}, groups);
     params_.samples = samples;
     return view_.render(camera_, mix_, black_, params_, {}, nullptr,
                         [&](const SurfacePoint& at, int x, int y, uint32_t sample) {
@@ -120,6 +120,7 @@ class DirectLight : public testing::Test {
   std::vector<Image> black_;
   MixSpec mix_;
   std::unique_ptr<MovedLamps> lamps_;
+  std::vector<Luminaire> luminaires_;  ///< that lights name
   std::vector<gpu::DirectLight::Report> mishaps_;
 };
 
@@ -145,6 +146,33 @@ TEST_F(DirectLight, AProjectorAsItsRays) {
     light.shape = ProjectorLight{slide, glm::radians(std::stof(fov)), 8.0f / 6};
     expect_alike(light);
   }
+}
+
+// A table that no axis mirrors: C0 towards -x here, C90 towards the viewer.
+TEST_F(DirectLight, AMeasuredLampAsItsRays) {
+  Photometry table;
+  table.azimuths = {0, 90, 200, 360};
+  table.polars = {0, 35, 70, 120};
+  table.candela = {300, 200, 90, 0, 300, 60, 150, 0, 300, 120, 20, 0, 300, 200, 90, 0};
+  luminaires_ = {{"lamp.ldt", table}};
+  Light light;
+  light.intensity = Rgb(0.5f);
+  light.frame = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {-0.2f, 1.6f, 0.3f, 1});
+  light.shape = LuminaireLight{Id<Luminaire>(0)};
+  expect_alike(light);
+}
+
+TEST_F(DirectLight, ManyPointsAreAnOpening) {
+  MoreLights panel = parse_lights("area,size=0.6,0.2,position=0.2,1.9,0.1,lumens=200", "test");
+  luminaires_ = panel.luminaires;
+  const Image rays = by_rays(panel.lights, {}, 64);
+  double before = 1;
+  for (const int patches : {1, 4, 16}) {
+    const double error = error_of(rays, by_opengl(same_lamps(patches)));
+    EXPECT_LT(error, before) << patches;
+    before = error;
+  }
+  EXPECT_LT(before, 0.04);
 }
 
 TEST_F(DirectLight, ManyPatchesAreAnAreaLamp) {

@@ -23,6 +23,9 @@ constexpr std::string_view kProjector =
 constexpr std::string_view kPatch =
 #include "lights/patch.glsl.h"
     ;
+constexpr std::string_view kLuminaire =
+#include "gpu/luminaire.glsl.h"
+    ;
 constexpr float kWidestMap = 120 * kPi / 180;  // wider cones take cubes
 constexpr uint32_t kPatchStream = 0x70617463u;
 
@@ -36,6 +39,18 @@ Mat4 looking_along(const Vec3& position, const Vec3& axis) {
 
 float degrees(float cosine) {
   return std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 180 / kPi;
+}
+
+/// As luminaire.glsl looks it up.
+std::shared_ptr<const Image> table_of(const Photometry& photometry) {
+  constexpr int kColumns = 145, kRows = 361;  // 2.5 and 0.5 degrees apart
+  auto out = std::make_shared<Image>(Image::rgb(kColumns, kRows));
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) {
+      const Vec3 direction = direction_of(Photometry::Type::c, 2.5 * x, 0.5 * y);
+      out->set_rgb(x, y, Rgb(static_cast<float>(intensity(photometry, direction))));
+    }
+  return out;
 }
 
 LampShader shader(const Lamp& lamp, std::string_view text, const Mat4& frame, const Rgb& intensity) {
@@ -54,10 +69,6 @@ struct Maker {
   std::vector<LampShader>& out;
 
   const Lamp& lamp() const { return lamps.all()[number]; }
-  [[noreturn]] void refuse(const char* kind) const {
-    throw UnknownLamp("lamp '" + lamp().name + "'",
-                      std::string("is a ") + kind + ", which OpenGL does not move", "--device cpu");
-  }
 
   void operator()(const PunctualLamp& p) const {
     const bool spot = p.cos_outer > -1;
@@ -105,8 +116,26 @@ struct Maker {
       }
     }
   }
-  void operator()(const SkyLamp&) const { refuse("sky"); }
-  void operator()(const LuminaireLamp&) const { refuse("measured luminaire"); }
+  void operator()(const SkyLamp&) const {
+    throw UnknownLamp("lamp '" + lamp().name + "'", "is a sky, which OpenGL does not move", "--device cpu");
+  }
+  /// Points of the opening.
+  void operator()(const LuminaireLamp& l) const {
+    const auto table = table_of(*l.table);
+    const int points = l.table->opening.is_point() ? 1 : patches;
+    for (int i = 0; i < points; ++i) {
+      const auto index = static_cast<uint32_t>(i),
+                 stream = mix32(kPatchStream, static_cast<uint32_t>(number));
+      const EmittedLight from =
+          lamps.emit(number, sobol_pair(index, 0, stream), sobol_pair(index, 1, stream));
+      Mat4 frame(1.0f);
+      for (int k = 0; k < 3; ++k) frame[k] = glm::vec4(l.to_world[k], 0);
+      frame[3] = glm::vec4(from.position, 1);
+      out.push_back(shader(lamp(), kLuminaire, frame, weight * l.scale / static_cast<float>(points)));
+      out.back().uniforms = {{"table", {}, {}, table}};
+      out.back().side = points == 1 ? side : std::max(64, side / 4);
+    }
+  }
   void operator()(const NearFieldLamp&) const {}  // NearLights
 };
 

@@ -45,11 +45,11 @@ class UnknownLamp : public Error {
   using Error::Error;
 };
 
-/// Lamps that the CPU knows: points, spots, suns and projectors by themselves, meshes as `patches` small ones
-/// each. Light fields have none: NearLights.
+/// Lamps that the CPU knows: points, spots, suns and projectors by themselves, meshes and openings of
+/// luminaires as `patches` small ones each. Light fields have none: NearLights.
 /// @param chosen  number and weight of each
 /// @param side    of their maps; a quarter for patches
-/// @throws UnknownLamp: sky, measured luminaire
+/// @throws UnknownLamp: sky
 std::vector<LampShader> lamp_shaders(const Lamps& lamps, std::span<const std::pair<std::size_t, Rgb>> chosen,
                                      int patches, int side);
 
