@@ -218,8 +218,7 @@ TEST_F(Browser, Sky) {
   compare({{"tier=half", {press("sky brightness, in stops", "ArrowLeft", 20)}, {"sky=-2ev"}}});
 }
 
-// Coloured glass before a veil, on a third of the picture (codes are blended, where the CPU blends light); a
-// fader moves what is behind them.
+// Coloured glass before a veil, over most of the picture; a fader moves what is behind them.
 TEST_F(Browser, PanesLetThrough) {
   Scene room = test::two_lamp_room();
   Material glass, veil;
@@ -227,10 +226,10 @@ TEST_F(Browser, PanesLetThrough) {
   veil.name = "veil", veil.base_color = Rgb(0.4f), veil.alpha_mode = Material::Alpha::blend,
   veil.alpha = 0.4f;
   glass.double_sided = veil.double_sided = true;
-  for (const auto& [material, x, z] : {std::tuple{glass, -0.6f, 0.1f}, {veil, -0.1f, 0}}) {
+  for (const auto& [material, x, z] : {std::tuple{glass, -0.95f, 0.1f}, {veil, -0.55f, 0}}) {
     room.materials.push_back(material);
-    add_quad(room, material.name, Id<Material>(room.materials.size() - 1), Vec3(x, 0.4f, z), Vec3(0.7f, 0, 0),
-             Vec3(0, 0.7f, 0));
+    add_quad(room, material.name, Id<Material>(room.materials.size() - 1), Vec3(x, 0.1f, z), Vec3(1.5f, 0, 0),
+             Vec3(0, 1.6f, 0));
   }
   bake(folder_.write("panes.glb", write_glb(room, "test")), {"--atlas", "256", "--samples", "64"});
   run({"export", path("x.sconce"), "--web", path("site"), "--quiet"});

@@ -147,7 +147,7 @@ async function start(): Promise<void> {
     dirty = true;
     requestAnimationFrame(() => {
       dirty = false;
-      renderer.render(sconce, look.camera);
+      sconce.render(renderer, look.camera);
     });
   };
   sconce.onChange = look.onChange = draw;

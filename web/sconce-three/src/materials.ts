@@ -84,8 +84,9 @@ const kFinish: Record<Output, string> = {
 };
 
 /**
- * Panes are drawn twice, in any order: what passes multiplies the picture behind, what they show is added. Blending is of
- * codes, as everywhere on the web, and a tint multiplies as light does.
+ * Panes are drawn twice: what passes multiplies the picture behind, what they show is added. Sconce.render() blends light,
+ * from the farthest to the nearest; who draws by the renderer alone has codes blended, as everywhere on the web, where a tint multiplies as
+ * light does.
  */
 const kPaneFinish: Record<Output, string> = {
   display: `#if PANES == 1
@@ -115,14 +116,24 @@ function finished(main: string, tone: string, output: Output): string {
 ${tone}
 uniform ToneParams sconce_tone;
 uniform float sconce_exposure;
-uniform int sconce_read;  // 1: lux, 2: cd/m2, instead of a picture
+uniform int sconce_read;  // instead of a picture: 1: lux, 2: cd/m2, 3: exposed light
 
 void main() {
 #ifdef PANES
-  if (sconce_read != 0) discard;  // the light behind is read
+  if (sconce_read == 1 || sconce_read == 2) discard;  // the light behind is read
 #endif
   sconce_main();
   if (sconce_read == 1) seen = vec4(sconce_lux, 1.0);
+  if (sconce_read == 3) {
+#if defined(PANES) && PANES == 1
+    seen = vec4(pane_clear + (1.0 - pane_clear) * pane_tint, 1.0);
+#else
+    seen = vec4(min(seen.rgb * sconce_exposure, 6e4), 1.0);  // a half ends at 65504
+#ifdef PANES
+    seen.rgb *= 1.0 - pane_clear;
+#endif
+#endif
+  }
   if (sconce_read != 0) return;
 #ifdef PANES
 ${kPaneFinish[output]}#else

@@ -26,6 +26,7 @@ import {
 import { autoExposure, ev100Exposure, Meter, type Metering } from './exposure.js';
 import { type Arrived, fetchPacked } from './fetch.js';
 import { Layers } from './layers.js';
+import { LightTarget } from './light_target.js';
 import {
   isPane,
   kWhite,
@@ -40,6 +41,7 @@ import {
   surfaceShader,
   type Uniforms,
 } from './materials.js';
+import { type Pane, panesOf, sortPanes } from './panes.js';
 import type { ProbeLight, Probes } from './probes.js';
 import { groupWeight, parseSetting, settingsOf } from './setting.js';
 import type { LightGroup, Rgb, Site, SitePreset, SiteTier } from './site.js';
@@ -74,6 +76,9 @@ export class Sconce extends Group {
   private mode: ExposureMode = { stops: 0 };
   private curve = 'agx';
   private pixel?: WebGLRenderTarget;
+  /** Where there are panes. */
+  private readonly light?: LightTarget;
+  private readonly panes: Pane[];
   private readonly sides: Mesh<BufferGeometry, ShaderMaterial[]>[];
   private readonly pictures: IUniform<Texture>[];
   private picturesArrived = false;
@@ -106,19 +111,17 @@ export class Sconce extends Group {
       sconce_read: { value: 0 },
     };
     this.pictures = site.textures.map(() => ({ value: kWhite }));
-    const panes = site.geometry.batches.some((batch) => isPane(site.materials[batch.material]!));
-    const passes: Pass[] = panes ? ['opaque', 'passing', 'own'] : ['opaque'];
-    this.sides = passes.flatMap((pass, order) =>
-      ([FrontSide, BackSide] as const).map((side) => {
-        const materials = site.geometry.batches.map((batch) =>
-          surfaceMaterial(site, batch, this.pictures, this.shown, this.shared, side, pass),
-        );
-        const mesh = new Mesh(geometry, materials);
-        mesh.renderOrder = order;
-        return mesh;
-      }),
+    const material = (batch: Site['geometry']['batches'][number], side: typeof FrontSide | typeof BackSide, pass: Pass) =>
+      surfaceMaterial(site, batch, this.pictures, this.shown, this.shared, side, pass);
+    this.panes = site.geometry.batches
+      .filter((batch) => isPane(site.materials[batch.material]!))
+      .flatMap((batch) => panesOf(geometry, batch, (side, pass) => material(batch, side, pass)));
+    this.sides = ([FrontSide, BackSide] as const).map(
+      (side) => new Mesh(geometry, site.geometry.batches.map((batch) => material(batch, side, 'opaque'))),
     );
+    if (this.panes.length > 0) this.add(...this.panes.flatMap((pane) => pane.meshes));
     this.add(...this.sides);
+    if (this.panes.length > 0 && output === 'display') this.light = new LightTarget(this.shared.sconce_tone!);
     this.addSky();
     this.writeShaders();
     this.update();
@@ -221,6 +224,18 @@ export class Sconce extends Group {
     ]);
   }
 
+  /**
+   * Draws it onto the canvas. As renderer.render(), but what is behind panes is mixed with them as light, where the device
+   * draws into halves; codes are mixed otherwise.
+   */
+  render(renderer: WebGLRenderer, camera: Camera): void {
+    if (!this.light || renderer.getRenderTarget() || !LightTarget.works(renderer)) return renderer.render(this, camera);
+    sortPanes(this.panes, this.worldToLocal(camera.getWorldPosition(new Vector3())));
+    this.shared.sconce_read!.value = 3;
+    this.light.draw(renderer, this, camera);
+    this.shared.sconce_read!.value = 0;
+  }
+
   /** Light at a point of the picture, x and y in [0,1] from the top left; nothing where the device cannot tell. */
   read(renderer: WebGLRenderer, camera: PerspectiveCamera | OrthographicCamera, x: number, y: number): Reading | undefined {
     if (!renderer.extensions.has('EXT_color_buffer_float')) return undefined;
@@ -274,15 +289,18 @@ export class Sconce extends Group {
   /** Frees what the graphics device holds. */
   dispose(): void {
     this.kept.dispose();
-    for (const { geometry, material } of this.sides) {
-      geometry.dispose();
-      for (const one of material) one.dispose();
-    }
+    for (const { geometry } of [...this.sides, ...this.panes.flatMap((pane) => pane.meshes)]) geometry.dispose();
+    for (const material of this.surfaces()) material.dispose();
     for (const { geometry, material } of this.movables) geometry.dispose(), material.dispose();
     for (const texture of [...this.pictures.map((p) => p.value), ...this.skies]) texture.dispose();
     this.sky?.geometry.dispose();
     this.sky?.material.dispose();
     this.pixel?.dispose();
+    this.light?.dispose();
+  }
+
+  private surfaces(): ShaderMaterial[] {
+    return [...this.sides.flatMap((mesh) => mesh.material), ...this.panes.flatMap((pane) => pane.meshes.map((mesh) => mesh.material))];
   }
 
   private readPixel(renderer: WebGLRenderer, camera: Camera, what: number): number {
@@ -314,8 +332,9 @@ export class Sconce extends Group {
 
   private writeShaders(): void {
     const tone = this.site.tones.find((t) => t.name === this.curve)!.glsl;
+    this.light?.setTone(tone);
     const text = surfaceShader(this.site, this.mixing, tone, this.output);
-    for (const material of this.sides.flatMap((mesh) => mesh.material)) {
+    for (const material of this.surfaces()) {
       material.fragmentShader = text;
       material.needsUpdate = true;
     }
