@@ -55,6 +55,49 @@ TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
   EXPECT_NE(unknown.err.find("baked: desk, floor"), std::string::npos) << unknown.err;
 }
 
+// Planes, goals and what faders are sought by follow a lamp that was moved: a scene that has it there says
+// how.
+TEST_F(ViewTest, FiguresFollowMovedLamps) {
+  bake_movable();
+  const auto outcome = view("set right=0.5\nplane 0.9 0.4\nwish 0.2,0.8,0.3 300\nsettle\nfigures " +
+                            path("home.csv") + "\nlamp \"lamp left\" 0,1.4,0.2\nsettle\nfigures " +
+                            path("there.csv") + "\nseek\nwait 1.2\nsettle\nfigures " + path("sought.csv") +
+                            "\nmove 300,300\nframes 3\nscreenshot " + path("all.png") +
+                            "\nhome\nset left=1 right=0.5\nsettle\nfigures " + path("back.csv") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  Scene moved = test::two_lamp_room();
+  for (Instance& instance : moved.instances)
+    if (instance.name == "lamp left") instance.transform[3] += glm::vec4(0.6f, -0.58f, 0.2f, 0);
+  folder_.write("moved.glb", write_glb(moved, "test"));
+  const auto baked = test::run_sconce(
+      {"bake", path("moved.glb"), "-o", path("moved.sconce"), "--density", "4", "--samples", "1", "--quiet"});
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  const auto figures = [&](const char* file) {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& line : split(read_file(path(file)), '\n')) rows.push_back(split(line, ','));
+    return rows;
+  };
+  const auto average = [&](const char* file, std::size_t row) {
+    return parse_number(figures(file).at(row).at(3)).value();
+  };
+  const auto probed = [&](std::vector<std::string> at) {
+    at.insert(at.begin(), {"probe", path("moved.sconce")});
+    for (const char* word : {"right=0.5", "--json"}) at.emplace_back(word);
+    const auto probe = test::run_sconce(at);
+    EXPECT_EQ(probe.code, 0) << probe.err;
+    return nlohmann::json::parse(probe.out)["lux"]["average"].get<double>();
+  };
+  ASSERT_EQ(figures("there.csv").at(2).at(0), "goal 1");
+  const double plane = probed({"--plane", "floor+0.9", "--grid", "0.4"}),
+               goal = probed({"--at", "0.2,0.8,0.3"});
+  EXPECT_NEAR(average("there.csv", 1), plane, 0.02 * plane);
+  EXPECT_NEAR(average("there.csv", 2), goal, 0.02 * goal);
+  EXPECT_GT(std::abs(average("home.csv", 2) - goal), 0.1 * goal);
+  EXPECT_NEAR(average("sought.csv", 2), 300, 3);
+  EXPECT_NEAR(average("back.csv", 1), average("home.csv", 1), 0.1);
+  EXPECT_NEAR(average("back.csv", 2), average("home.csv", 2), 0.1);
+}
+
 // The middle of a ball right before the camera faces it: 0.8 E / pi of the probes around, as it is exposed.
 TEST_F(ViewTest, ABallTakesTheMixFromProbes) {
   folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));

@@ -116,6 +116,8 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
     line = "measuring";
   else if (preparing_.running())
     line = "preparing lamps to be moved";
+  else if (tracing_.running())
+    line = fmt::format("path tracing the reference, {} paths per pixel", traced_ ? traced_->samples : 0);
   else if (const std::string words = behind(); !words.empty())
     line = words;
   else if (state_.sheet)
@@ -180,30 +182,48 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
   ImGui::SetNextWindowSize(size);
   ImGui::Begin("welcome", nullptr, kBar);
   const bool waiting = opening_.running() || baking_.running();
-  const float width = px(460), x = 0.5f * (size.x - width);
-  ImGui::SetCursorPos({x, 0.24f * size.y});
+  const float width = px(520), x = 0.5f * (size.x - width), y = std::max(0.2f * size.y, px(40));
+  ImGui::SetCursorPos({x, y});
   ImGui::BeginGroup();
+  ImGui::PushTextWrapPos(x + width);
   ImGui::PushFont(fonts().large);
-  ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str()
-                                 : "Drop a package, a scene or a picture here");
+  ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str() : "Drop a file here");
   ImGui::PopFont();
   if (waiting) {
     const std::string stage = baking_.running() ? baking_.stage() : "opening";
     ImGui::ProgressBar(baking_.running() ? static_cast<float>(baking_.done()) : 0.5f, {width, px(6)}, "");
     ImGui::TextDisabled("%s", stage.c_str());
   } else {
-    ImGui::TextDisabled(
-        "NAME.sconce; glTF, OBJ, 3DS and others, baked while you look; OpenEXR with light groups.");
+    for (const auto& [what, about] :
+         {std::pair{"A package", "NAME.sconce, as sconce bake writes it"},
+          {"A scene", "glTF, OBJ, FBX, COLLADA, 3DS, ...: baked while you look"},
+          {"A picture", "OpenEXR with light groups, of Blender, V-Ray, Arnold, LuxCore, ..."}}) {
+      ImGui::TextUnformatted(what);
+      ImGui::SameLine(px(90));
+      ImGui::TextDisabled("%s", about);
+    }
     ImGui::Dummy({0, px(12)});
-    const fs::path ours = installed_file("scenes/bathroom.glb");
-    if (fs::exists(ours) && request_.bake && ImGui::Button("Our bathroom", {px(150), px(34)}))
-      attempt([&] { open(ours); });
-    ImGui::Dummy({0, px(12)});
+    for (const auto& [name, file] :
+         {std::pair{"Try our bathroom", "scenes/bathroom.glb"}, {"Try our playhouse", "scenes/theatre.glb"}})
+      if (const fs::path ours = installed_file(file); fs::exists(ours) && request_.bake) {
+        if (ImGui::Button(name, {px(170), px(34)})) attempt([&] { open(ours); });
+        ImGui::SameLine();
+      }
+    ImGui::NewLine();
+    const float end = ImGui::GetCursorPosY() + px(8);
+    dashed_frame(*ImGui::GetWindowDrawList(), {at.x + x - px(32), at.y + y - px(28)},
+                 {at.x + x + width + px(32), at.y + end + px(12)});
+    ImGui::SetCursorPosY(end + px(40));
     if (!remembered_.recent.empty()) ImGui::TextDisabled("Recent");
-    for (const std::string& file : std::vector(remembered_.recent))
+    for (const std::string& file : std::vector(remembered_.recent)) {
       if (ImGui::Selectable((fs::path(file).filename().string() + "##" + file).c_str(), false, 0, {width, 0}))
         attempt([&] { open(file); });
+      const std::string folder = fs::path(file).parent_path().string();
+      ImGui::SameLine(px(200));
+      ImGui::TextDisabled("%s", fitting(folder, width - px(200)).c_str());
+    }
   }
+  ImGui::PopTextWrapPos();
   ImGui::EndGroup();
   ImGui::End();
 }

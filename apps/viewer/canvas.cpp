@@ -144,6 +144,22 @@ std::vector<Image> Canvas::mixed_pages(const Movers& movers) {
   return movers.pages(mixer_, mix_);
 }
 
+const GroupPages& Canvas::moved_pages(const Movers& movers) {
+  if (!movers.any()) {
+    moved_pages_.clear(), moved_mix_ = {};
+  } else if (moved_version_ != movers.version() || moved_mix_.weights != mix_.weights) {
+    moved_pages_.clear();
+    Mixer mixer(opened_->layers);
+    for (const std::size_t group : movers.changed(mix_.weights.size())) {
+      MixSpec alone{std::vector<Rgb>(mix_.weights.size(), Rgb(0))};
+      alone.weights[group] = mix_.weights[group];
+      moved_pages_[group] = movers.pages(mixer, alone);
+    }
+    moved_version_ = movers.version(), moved_mix_ = mix_;
+  }
+  return moved_pages_;
+}
+
 void Canvas::set_reference(const Image& linear, const Session& session) {
   reference_sum_ = picture_texture(*context_, linear, "reference");
   reference_display_.tone(*reference_sum_, 1, session.exposure(metering_),

@@ -12,6 +12,7 @@
 #include "mix/mixer.h"
 #include "session/look.h"
 #include "session/movers.h"
+#include "session/reading.h"
 #include "viewer/screen.h"
 
 namespace sconce::viewer {
@@ -44,6 +45,8 @@ class Canvas : public Screen {
   void draw_anew() { samples_ = 0; }
   /// Of the mix that is drawn. @param movers  as in draw()
   std::vector<Image> mixed_pages(const Movers& movers);
+  /// Pages of each group whose light is not as it was baked, as weighted in the mix that is drawn.
+  const GroupPages& moved_pages(const Movers& movers);
 
   ImTextureID reference() const { return id_of(reference_display_.texture()); }
   Image linear() const override { return at_rest_ ? at_rest_linear_ : view_.linear(); }
@@ -67,6 +70,9 @@ class Canvas : public Screen {
   std::unique_ptr<gpu::Texture> reference_sum_, at_rest_;
   Image at_rest_linear_;
 
+  GroupPages moved_pages_;
+  uint64_t moved_version_ = 0;  ///< Movers::version() that they are of
+  MixSpec moved_mix_;           ///< and the mix
   bool on_device_ = false;
   uint64_t relit_ = 0;  ///< Movers::version()
   Scenery drawn_;

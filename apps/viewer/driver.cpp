@@ -244,7 +244,7 @@ bool Driver::perform(const Action& action) {
     }
     s.plane.height = numbers(action, 0, 1)[0];
     if (arguments.size() > 1) s.plane.spacing = numbers(action, 1, 1)[0];
-    return v.measure(), frames_ = 1, true;
+    return v.show_plane(), frames_ = 1, true;
   }
   if (word == "ball") {
     const auto at = numbers(action, 0, 3);

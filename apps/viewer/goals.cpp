@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 namespace sconce::viewer {
 
 void Viewer::add_goal(const Vec3& position, const Vec3& normal, double target, std::vector<Rgb> lux) {
-  state_.goals.push_back({position, normal, target, std::move(lux)});
+  state_.goals.push_back({position, normal, target, lux, lux});
+  if (state_.away()) measure();
 }
 
 void Viewer::seek() {
@@ -27,7 +28,10 @@ void Viewer::seek() {
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);
   session.fade_to(mood, state_.fade_seconds);
-  state_.sought = fmt::format("off by {:.1f} % of the goals", 100 * found.residual);
+  double now = 0, all = 0;
+  for (std::size_t g = 0; g < power.size(); ++g) now += power[g] * found.gains[g], all += power[g];
+  state_.sought = fmt::format("residual {:.1f} % of the goals", 100 * found.residual);
+  if (all > 0) state_.sought += fmt::format(", {:.0f} lm (as baked {:.0f})", now, all);
 }
 
 void Viewer::seek_picture(const fs::path& file) {
@@ -48,11 +52,12 @@ void Viewer::seek_picture(const fs::path& file) {
     wish_picture(wishes, state_.sheet->opened(), unit, target);
   else
     wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
+  if (state_.away() && !state_.sheet) note("sought with lamps and objects where they were baked");
   const Fit found = fit(wishes);
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);
   session.fade_to(mood, state_.fade_seconds);
-  state_.sought = fmt::format("{}: off by {:.1f} %", file.filename().string(), 100 * found.residual);
+  state_.sought = fmt::format("{}: residual {:.1f} %", file.filename().string(), 100 * found.residual);
   note("faders moved to look like " + file.filename().string());
 }
 

@@ -31,15 +31,6 @@ void Viewer::write_picture(const fs::path& file) const {
     write_png(file, state_.screen().read());
 }
 
-void Viewer::save_preset() {
-  const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}.toml", state_.file.stem().string(),
-                                       fmt::localtime(std::time(nullptr)));
-  const fs::path path = state_.file.parent_path() / name;
-  write_file(path, print_preset(to_preset(state_.session->groups(), state_.session->mood(), "",
-                                          state_.session->lamps())));
-  note("preset written: " + path.string());
-}
-
 void Viewer::save_package(fs::path target) {
   if (target.empty()) target = fs::path(state_.file).replace_extension(".sconce");
   if (fs::exists(target) && !is_package(target))

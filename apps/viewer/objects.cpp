@@ -45,9 +45,9 @@ void Viewer::light_objects() {
   }
   if (wanted != mover.moves()) {
     // Nobody else may look while things are being moved.
-    shading_.stop(), refining_.stop(), tracing_.stop(), mirroring_.stop();
+    shading_.stop(), refining_.stop(), tracing_.stop(), mirroring_.stop(), measuring_.stop();
     mirrored_ = 0;
-    reference_.reset(), traced_.reset();
+    reference_.reset(), coming_.reset(), traced_.reset();
     mover.place(wanted);
     state_.canvas->follow(mover.view());
     light_lamps_among_objects();

@@ -2,6 +2,8 @@
 // Lux on a plane while faders move, and faders moved to what is wished for.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "viewer/viewer.h"
 #include "viewer/widgets.h"
 
@@ -25,6 +27,18 @@ void figure(const char* label, const std::string& value, bool first) {
 
 }  // namespace
 
+/// How far figures know what was moved.
+void Viewer::standing_line() {
+  if (!state_.away()) return;
+  const std::string without = unmeasured();
+  ImGui::PushFont(fonts().small);
+  if (measuring_.running())
+    ImGui::TextDisabled("measuring all as it stands now");
+  else if (!without.empty())
+    ImGui::TextColored(kWarning, "%s", without.c_str());
+  ImGui::PopFont();
+}
+
 /// What is known of baked planes follows the faders exactly: nothing is traced.
 void Viewer::baked_section() {
   if (state_.opened->planes.empty()) return;
@@ -36,7 +50,7 @@ void Viewer::baked_section() {
   if (!ImGui::BeginTable("planes", 5, ImGuiTableFlags_SizingStretchProp)) return;
   for (const char* head : kHeads) ImGui::TableSetupColumn(head);
   ImGui::TableHeadersRow();
-  for (const MeasuredPlane& baked : state_.opened->planes) {
+  for (const MeasuredPlane& baked : state_.planes) {
     ImGui::TableNextColumn();
     const bool shown = state_.plane.shown && state_.plane.measured.name == baked.name;
     if (ImGui::Selectable(baked.name.c_str(), shown, ImGuiSelectableFlags_SpanAllColumns)) {
@@ -54,7 +68,7 @@ void Viewer::baked_section() {
     }
   }
   ImGui::EndTable();
-  if (state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
+  standing_line();
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();
 }
@@ -69,9 +83,9 @@ void Viewer::plane_section() {
   const float width = ImGui::GetContentRegionAvail().x;
   if (toggle("plane", shown ? "On" : "Off", shown, palette::kAccent, px(54))) {
     if (shown)
-      plane.shown = false, measuring_.stop();
+      plane.shown = false, measure();
     else
-      measure();
+      show_plane();
   }
   ImGui::SameLine();
   ImGui::SetNextItemWidth(0.36f * width);
@@ -81,7 +95,7 @@ void Viewer::plane_section() {
   ImGui::SetNextItemWidth(-1);
   ImGui::DragFloat("##spacing", &plane.spacing, 0.01f, 0.05f, 10, "every %.2f m");
   again |= ImGui::IsItemDeactivatedAfterEdit();
-  if (again && shown) measure();
+  if (again && shown) show_plane();
   const MeasuredLight& light = plane.measured.light;
   if (shown && light.samples > 0) {
     const LuxStatistics s = plane_statistics(light, mix);
@@ -94,8 +108,8 @@ void Viewer::plane_section() {
         "%s", fmt::format("{} x {} points, {} paths each{}", plane.measured.grid.columns,
                           plane.measured.grid.rows, light.samples, measuring_.running() ? ", measuring" : "")
                   .c_str());
-    if (state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
     ImGui::PopFont();
+    standing_line();
   }
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();
@@ -128,16 +142,20 @@ void Viewer::design_panel() {
     if (ImGui::DragFloat("##target", &target, 2, 0, 1e6f, "%.0f lux"))
       goal.target = static_cast<double>(target);
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", fmt::format("now {:.0f}", now).c_str());
+    if (std::all_of(goal.lux.begin(), goal.lux.end(), [](const Rgb& e) { return e.is_black(); }))
+      ImGui::TextColored(kWarning, "no light gets there");
+    else
+      ImGui::TextDisabled("%s", fmt::format("now {:.0f}", now).c_str());
     ImGui::SameLine(width - px(24));
     const bool gone = ImGui::SmallButton("x");
     ImGui::PopID();
     if (gone) {
       state_.goals.erase(state_.goals.begin() + static_cast<std::ptrdiff_t>(i));
+      if (state_.away()) measure();
       break;
     }
   }
-  if (!state_.goals.empty() && state_.away()) ImGui::TextColored(kWarning, "%s", kAsBaked);
+  if (!state_.goals.empty()) standing_line();
   if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
   if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
   if (state_.sheet) return;

@@ -23,37 +23,33 @@ void Viewer::look_panel() {
   Mood mood = session.mood();
   const float width = ImGui::GetContentRegionAvail().x;
 
+  const float half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
   heading("Exposure");
-  if (toggle("held", "Held", !mood.automatic, palette::kAccent, 0.32f * width) && mood.automatic)
+  if (toggle("held", "Held", !mood.automatic, palette::kAccent, half) && mood.automatic)
     session.meter_once(metering_now());
-  tip("stays as it is while faders move");
+  tip("stays as it is while faders move; X meters anew");
   ImGui::SameLine();
-  if (toggle("auto", "Automatic", mood.automatic, palette::kAccent, 0.32f * width) && !mood.automatic) {
+  if (toggle("auto", "Automatic", mood.automatic, palette::kAccent, half) && !mood.automatic) {
     mood.automatic = true, mood.stops = 0;
     session.change(mood);
   }
   tip("follows the mix, as `sconce render` does");
   mood = session.mood();
-  ImGui::SetNextItemWidth(-1);
   auto value = static_cast<float>(mood.automatic ? mood.stops : mood.ev100);
-  if (ImGui::SliderFloat("##exposure", &value, mood.automatic ? -6.0f : -4.0f, mood.automatic ? 6.0f : 18.0f,
-                         mood.automatic ? "%+.2f EV" : "EV100 %.2f, higher is darker")) {
+  if (mood.automatic
+          ? slider("##exposure", "Brighter or darker", signed_words(mood.stops, 2) + " EV", &value, -6, 6)
+          : slider("##exposure", "EV 100, higher is darker", fmt::format("{:.2f}", mood.ev100), &value, -4,
+                   18)) {
     (mood.automatic ? mood.stops : mood.ev100) = static_cast<double>(value);
     session.change(mood, "exposure");
   }
   if (ImGui::IsItemDeactivated()) session.end_gesture();
 
   heading("Tone curve");
-  float used = 0;
+  Rows curves(width);
   for (const ToneMapper& mapper : tone_mappers()) {
     const std::string name(mapper.name);
-    const float wide = ImGui::CalcTextSize(name.c_str()).x + px(20);
-    if (used > 0 && used + wide < width)
-      ImGui::SameLine();
-    else
-      used = 0;
-    used += wide + ImGui::GetStyle().ItemSpacing.x;
-    if (toggle(name.c_str(), name.c_str(), mood.tone == name, palette::kAccent, wide)) {
+    if (toggle(name.c_str(), name.c_str(), mood.tone == name, palette::kAccent, curves.next(name))) {
       mood.tone = name;
       session.change(mood);
     }
@@ -77,6 +73,11 @@ void Viewer::look_panel() {
     if (ImGui::DragFloat2("##scale", ends, std::max(scale.high * 0.01f, 0.001f), 0, 1e7f, "%.4g"))
       scale.low = ends[0], scale.high = ends[1];
     tip("where the scale begins and ends");
+    if (state_.look != LookKind::noise) {
+      if (ImGui::Button("Fit")) scale = scale_now(state_.look, scale);
+      tip("ends the scale where this mix does");
+      ImGui::SameLine();
+    }
     if (ImGui::Checkbox("by decades", &scale.decades) && scale.decades && !(scale.low > 0))
       scale.low = scale.high * 1e-4f;
     ImGui::SameLine();
@@ -84,9 +85,13 @@ void Viewer::look_panel() {
     if (scale.low >= 0 && scale.high > scale.low && (!scale.decades || scale.low > 0)) state_.scale() = scale;
   }
   if (state_.look == LookKind::reference) {
-    ImGui::TextDisabled("%s", fmt::format("{} paths per pixel", traced_ ? traced_->samples : 0).c_str());
+    ImGui::Dummy({0, px(2)});
+    if (ImGui::Button("Trace this view", {half, 0})) refine_reference();
+    tip("the right half, path traced from where the camera stands now");
     ImGui::SameLine();
-    if (ImGui::SmallButton("trace this view")) refine_reference();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", traced_ ? fmt::format("{} paths per pixel", traced_->samples).c_str()
+                                      : "the first paths are traced");
   }
 
   if (state_.sheet) return;
@@ -95,15 +100,16 @@ void Viewer::look_panel() {
     tip("what mirrors, metals and glossy surfaces show, by rays, as soon as nothing moves");
   }
   heading("Cameras");
+  Rows cameras(width);
   for (const Camera& camera : state_.opened->rays.scene().cameras)
-    if (ImGui::Selectable((camera.name + "##camera").c_str(),
-                          camera.name == state_.camera.name && camera.frame == state_.camera.frame))
+    if (toggle((camera.name + "##camera").c_str(), camera.name.c_str(),
+               camera.name == state_.camera.name && camera.frame == state_.camera.frame, palette::kAccent,
+               cameras.next(camera.name)))
       state_.camera = camera;
+  ImGui::Dummy({0, px(2)});
   auto fov = state_.camera.yfov * 180 / kPi;
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##fov", &fov, 10, 120, "field of view %.0f\u00b0"))
+  if (slider("##fov", "Field of view", fmt::format("{:.0f}\u00b0", fov), &fov, 10, 120))
     state_.camera.yfov = fov * kPi / 180;
-  const float half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
   if (ImGui::Button("All in sight", {half, 0}))
     state_.camera = frame_all(state_.camera, state_.opened->rays.world().bounds);
   ImGui::SameLine();

@@ -15,20 +15,21 @@ namespace {
 
 constexpr std::size_t kRoomy = 8;  // groups; of more, words stand beside the name
 
-std::string in_words(const GroupInfo& group, const Fader& fader, double master, bool brief) {
-  if (!fader.on) return "off";
-  std::string words = fmt::format("{:+.1f} EV", stops_of(fader.gain));
-  if (!brief) words += fmt::format("  \u00d7{:.3g}", fader.gain);
-  if (group.lumens > 0) words += fmt::format("  {:.0f} lm", group.lumens * fader.gain * master);
-  if (fader.color == Fader::Color::kelvin) words += fmt::format("  {:.0f} K", fader.kelvin);
-  return words;
+struct Words {
+  std::string stops, gain, lumens, kelvin;
+};
+
+Words in_words(const GroupInfo& group, const Fader& fader, double master) {
+  if (!fader.on) return {"off", {}, {}, {}};
+  return {signed_words(stops_of(fader.gain), 1) + " EV", fmt::format("\u00d7{:.3g}", fader.gain),
+          group.lumens > 0 ? fmt::format("{:.0f} lm", group.lumens * fader.gain * master) : "",
+          fader.color == Fader::Color::kelvin ? fmt::format("{:.0f} K", fader.kelvin) : ""};
 }
 
-void small_words(const std::string& words) {
+void small_words(float x, const std::string& words, bool to_right = false) {
+  ImGui::SameLine(to_right ? x - width_of(fonts().small, words) : x);
   ImGui::PushFont(fonts().small);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
-  ImGui::TextUnformatted(words.c_str());
-  ImGui::PopStyleColor();
+  ImGui::TextDisabled("%s", words.c_str());
   ImGui::PopFont();
 }
 
@@ -69,33 +70,14 @@ void Viewer::side_panel(ImVec2 at, ImVec2 size) {
 void Viewer::mix_panel() {
   Session& session = *state_.session;
   Mood mood = session.mood();
-  // Presets and A/B.
-  const float third = (ImGui::GetContentRegionAvail().x - 3 * ImGui::GetStyle().ItemSpacing.x) / 4;
-  for (const char slot : {'a', 'b'}) {
-    const std::string name(1, static_cast<char>(slot - 'a' + 'A'));
-    if (toggle(("##keep" + name).c_str(), name.c_str(), session.kept(slot), palette::kAccent, third)) {
-      if (session.kept(slot) && !ImGui::GetIO().KeyShift)
-        session.recall(slot, state_.fade_seconds);
-      else
-        session.keep(slot);
-    }
-    tip("keeps the mix aside; a second click fades back to it, Shift-click keeps anew");
-    ImGui::SameLine();
-  }
-  if (ImGui::Button("Save", {third, 0})) attempt([&] { save_preset(); });
-  tip("writes NAME-TIME.toml beside the package, for `sconce render --preset`; drop one to load it");
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(third);
-  auto seconds = static_cast<float>(state_.fade_seconds);
-  if (ImGui::DragFloat("##fade", &seconds, 0.05f, 0, 60, "fade %.1f s"))
-    state_.fade_seconds = static_cast<double>(seconds);
-  tip("how long cross-fades take");
+  moods_section();
+  mood = session.mood();
 
-  // Master.
-  ImGui::Dummy({0, px(2)});
   ImGui::PushFont(fonts().strong);
   ImGui::TextUnformatted("Master");
   ImGui::PopFont();
+  ImGui::SameLine(0, 0);
+  words_at_end(fonts().small, palette::kDim, signed_words(stops_of(mood.faders.master), 1) + " EV");
   const FaderMove master = fader_track("master", mood.faders.master, palette::kText, true);
   if (master.moved) {
     mood.faders.master = master.gain;
@@ -156,13 +138,16 @@ void Viewer::fader_row(std::size_t g) {
   ImGui::PushFont(fonts().strong);
   ImGui::PushStyleColor(ImGuiCol_Text, mix.weights[g].is_black() ? palette::kDim : palette::kText);
   const float small = px(26), gap = px(4), chips = ImGui::GetContentRegionMax().x - 3 * small - 2 * gap;
-  const std::string words = in_words(group, fader, mood.faders.master, compact);
-  const float beside = compact ? width_of(fonts().small, words) + 2 * gap : 0;
+  const Words words = in_words(group, fader, mood.faders.master);
+  const float column = px(58), beside = compact ? 2 * column + 2 * gap : 0;
   ImGui::TextUnformatted(fitting(group.name, chips - ImGui::GetCursorPosX() - gap - beside).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
   if (ImGui::IsItemHovered()) tip(about(g).c_str());
-  if (compact) ImGui::SameLine(chips - beside), small_words(words);
+  if (compact) {
+    small_words(chips - column - gap, words.stops, true);
+    small_words(chips - gap, words.kelvin.empty() ? words.lumens : words.kelvin, true);
+  }
   ImGui::SameLine(chips);
   if (color_chip("color", color, small)) ImGui::OpenPopup("colour");
   tip("colour: its own, kelvin, another one, or a tint");
@@ -186,7 +171,13 @@ void Viewer::fader_row(std::size_t g) {
   if (changed) session.change(mood, gesture);
   if (move.released) session.end_gesture();
 
-  if (!compact) small_words(words);
+  if (!compact) {
+    ImGui::PushFont(fonts().small);
+    ImGui::TextDisabled("%s", words.stops.c_str());
+    ImGui::PopFont();
+    small_words(px(66), words.gain), small_words(px(190), words.lumens, true);
+    small_words(ImGui::GetContentRegionMax().x, words.kelvin, true);
+  }
   closer();
   ImGui::Dummy({0, px(1)});
   ImGui::PopID();

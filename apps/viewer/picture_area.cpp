@@ -49,12 +49,18 @@ void Viewer::draw_canvas(ImVec2 at, ImVec2 size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);
   draw.AddImage(state_.canvas->texture(), at, end);
-  if (state_.look == LookKind::reference && reference_ && traced_) {
+  if (state_.look == LookKind::reference) {
     const float middle = at.x + 0.5f * size.x;
-    draw.AddImage(state_.canvas->reference(), {middle, at.y}, end, {0.5f, 0}, {1, 1});
+    const bool there = reference_ && traced_;
+    if (there) draw.AddImage(state_.canvas->reference(), {middle, at.y}, end, {0.5f, 0}, {1, 1});
     draw.AddLine({middle, at.y}, {middle, end.y}, palette::kAccent, px(1.5f));
-    text(draw, fonts().small, {middle + px(10), at.y + px(10)}, palette::kText,
-         fmt::format("path traced, {} paths per pixel", traced_->samples));
+    const auto label = [&](float x, const std::string& words) {
+      card(draw, {x, at.y + px(10)}, {width_of(fonts().small, words) + px(16), px(24)});
+      text(draw, fonts().small, {x + px(8), at.y + px(14)}, palette::kText, words);
+    };
+    label(middle + px(10),
+          there ? fmt::format("path traced, {} paths per pixel", traced_->samples) : "path tracing begins");
+    label(middle - px(30) - width_of(fonts().small, "lightmap"), "lightmap");
   }
   overlays();
   lamp_overlay();
@@ -71,7 +77,8 @@ void Viewer::navigate() {
   const Opened& opened = *state_.opened;
   const float reach = std::max(rays().world().bounds.diagonal(), 0.1f);
   if (hovered && !active) {
-    state_.under = read_pixel(rays(), opened.layers, state_.session->mix(), state_.camera, p, at);
+    state_.under = read_pixel(rays(), opened.layers, state_.session->mix(), state_.camera, p, at,
+                              state_.canvas->moved_pages(state_.movers()));
   } else if (!hovered) {
     state_.under.reset();
   }
@@ -176,10 +183,8 @@ void Viewer::overlays() {
          fmt::format("{:.3g} cd/m\u00b2", r.luminance));
     text(draw, fonts().small, {x + px(112), y + px(22)}, palette::kDim,
          fmt::format("albedo {:.2f}", luminance(r.albedo)));
-    text(draw, fonts().small, {x, y + px(42)}, state_.away() ? palette::kAccent : palette::kDim,
-         state_.away()        ? kAsBaked
-         : r.material.empty() ? r.object
-                              : r.object + " \u00b7 " + r.material);
+    text(draw, fonts().small, {x, y + px(42)}, palette::kDim,
+         r.material.empty() ? r.object : r.object + " \u00b7 " + r.material);
   }
   draw.PopClipRect();
 }

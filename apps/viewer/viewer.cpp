@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -20,6 +21,7 @@ namespace sconce::viewer {
 namespace {
 
 constexpr double kNoteSeconds = 6;
+constexpr int kFirstPart = 8, kReferencePart = 2;  // of the picture: what is seen first, and what is refined
 
 Remembered start_with(const ViewRequest& request) {
   Remembered r = request.forget ? Remembered{} : remember(remembered_file());
@@ -104,12 +106,7 @@ void Viewer::drop(const fs::path& file) {
     if (!state_.lamps.chosen) throw Error(file.string(), "is a lamp: choose one that is to become it");
     return set_kind(*state_.lamps.chosen, kind);
   }
-  if (ends_with_any(file, {".toml"}) && state_.session) {
-    state_.session->perform({"preset", {file.string(), fmt::format("{}", state_.fade_seconds)}, "drop"});
-    if (state_.session->lamps().empty() && !read_preset(file).lamps.empty())
-      note("its lamps stay where they are: this package has no operator (sconce transfer)");
-    return;
-  }
+  if (ends_with_any(file, {".toml"}) && state_.session) return fade_to_file(file);
   if (ends_with_any(file, {".png", ".jpg", ".jpeg", ".exr", ".hdr"}) && state_.session)
     return seek_picture(file);
   open(file);
@@ -146,10 +143,15 @@ void Viewer::take_results() {
   }
   if (auto opened = opening_.take())
     attempt([&] { std::visit([&](auto& what) { show(std::move(what)); }, *opened); });
-  if (auto light = measuring_.take()) state_.plane.measured.light = std::move(*light);
-  if (auto light = tracing_.take()) traced_ = std::move(*light);
+  if (auto parts = measuring_.take()) take_measured(std::move(*parts));
+  if (auto light = tracing_.take()) {
+    traced_ = std::move(*light);
+    if (coming_) reference_ = std::exchange(coming_, {});
+    if (coming_part_ != kReferencePart) trace_reference(kReferencePart);
+  }
   if (state_.opened) attempt([&] { light_objects(); });
   if (state_.ready()) attempt([&] { light_lamps(); });
+  if (state_.ready()) attempt([&] { follow_moves(); });
   for (const std::string& problem :
        {opening_.take_problem(), baking_.take_problem(), measuring_.take_problem(), tracing_.take_problem(),
         preparing_.take_problem(), refining_.take_problem(), mirroring_.take_problem(),
@@ -160,7 +162,7 @@ void Viewer::take_results() {
 void Viewer::forget_light() {
   measuring_.stop(), tracing_.stop(), mirroring_.stop();
   mirrored_ = 0;
-  reference_.reset(), traced_.reset();
+  reference_.reset(), coming_.reset(), traced_.reset();
 }
 
 void Viewer::show(std::shared_ptr<const Opened> opened) {
@@ -178,13 +180,14 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   state_.sheet.reset();
   state_.opened = std::move(opened);
   state_.package = state_.opened->package.path();
+  state_.planes = state_.opened->planes;
   prepare_lamps();
   if (again) {
     if (!state_.plane.shown) return;
     const std::string& name = state_.plane.measured.name;
     const auto baked = std::find_if(state_.opened->planes.begin(), state_.opened->planes.end(),
                                     [&](const MeasuredPlane& plane) { return plane.name == name; });
-    baked == state_.opened->planes.end() ? measure() : show_plane(*baked);
+    baked == state_.opened->planes.end() ? show_plane() : show_plane(*baked);
     return;
   }
   state_.camera = state_.opened->rays.camera("");
@@ -213,9 +216,8 @@ void Viewer::start_session(const std::vector<GroupInfo>& groups, std::vector<Sce
   const Metering metering = metering_now();
   state_.session->meter_once(metering);
   state_.session->forget_history();
-  for (const auto& [kind, typical] :
-       {std::pair{LookKind::lux, 8 * metering.log_mean}, {LookKind::luminance, metering.log_mean}})
-    state_.scales[kind] = fitting_scale(typical, false);
+  find_moods();
+  for (const LookKind look : {LookKind::lux, LookKind::luminance}) state_.scales[look] = scale_now(look);
   state_.scales[LookKind::noise] = {.low = 0, .high = 20};
 }
 
@@ -226,55 +228,33 @@ void Viewer::set_look(LookKind look) {
   if (look == LookKind::reference) refine_reference();
 }
 
+FalseColor Viewer::scale_now(LookKind look, const FalseColor& scale) const {
+  // Lux: of surfaces with an albedo of 0.8, so that the walls' fill the scale.
+  const double typical = metering_now().log_mean * (look == LookKind::lux ? double{kPi} / 0.8 : 1);
+  FalseColor fitted = fitting_scale(typical, scale.decades);
+  fitted.lines = scale.lines;
+  return fitted;
+}
+
 void Viewer::refine_reference() {
+  reference_.reset(), traced_.reset();
+  trace_reference(kFirstPart);
+}
+
+void Viewer::trace_reference(int part) {
   tracing_.stop();
-  const int width = std::max(static_cast<int>(state_.canvas_size.x) / 2, 16);
-  const int height = std::max(static_cast<int>(state_.canvas_size.y) / 2, 16);
-  reference_.emplace(rays(), state_.camera, PictureParams{.width = width, .height = height, .samples = 1});
-  traced_.reset();
-  tracing_.start([meter = std::make_shared<PointMeter>(reference_->meter()), opened = state_.opened,
+  const int width = std::max(static_cast<int>(state_.canvas_size.x) / part, 16);
+  const int height = std::max(static_cast<int>(state_.canvas_size.y) / part, 16);
+  coming_.emplace(rays(), state_.camera, PictureParams{.width = width, .height = height, .samples = 1});
+  coming_part_ = part;
+  tracing_.start([meter = std::make_shared<PointMeter>(coming_->meter()), opened = state_.opened,
+                  passes = part == kReferencePart ? 128 : 1,
                   mover = state_.objects.mover](const Progress& progress, const auto& publish) {
-    for (int pass = 0; pass < 128; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
       meter->pass(8, progress);
       publish(meter->light());
     }
   });
-}
-
-void Viewer::measure() {
-  Plane& plane = state_.plane;
-  plane.shown = true;
-  const MeasuringPlane grid =
-      horizontal_plane(state_.opened->rays.world().bounds, plane.height, plane.spacing);
-  plane.measured = {{}, grid, {}};
-  measuring_.start(
-      [opened = state_.opened, points = grid.points()](const Progress& progress, const auto& publish) {
-        PointMeter meter(opened->rays, points, ReceiverKind::plane);
-        for (int samples = 64; samples <= 2048; samples *= 2) {
-          meter.pass(samples, progress);
-          publish(meter.light());
-        }
-      });
-}
-
-void Viewer::show_plane(const MeasuredPlane& baked) {
-  measuring_.stop();
-  state_.plane.shown = true;
-  state_.plane.measured = baked;
-}
-
-void Viewer::write_figures(const fs::path& file) const {
-  std::string lines = "plane,points,minimum,average,maximum,uniformity\n";
-  const auto line = [&](const std::string& name, const MeasuredLight& light) {
-    const LuxStatistics s = plane_statistics(light, state_.session->mix());
-    lines += fmt::format("{},{},{},{},{},{}\n", name, light.points(), s.minimum, s.average, s.maximum,
-                         s.uniformity());
-  };
-  for (const MeasuredPlane& plane : state_.opened->planes) line(plane.name, plane.light);
-  const Plane& shown = state_.plane;
-  if (shown.shown && shown.measured.name.empty())
-    line(fmt::format("{} m", shown.height), shown.measured.light);
-  write_file(file, lines);
 }
 
 Metering Viewer::metering_now() const {

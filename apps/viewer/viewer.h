@@ -16,6 +16,7 @@
 #include "session/measure.h"
 #include "session/motion.h"
 #include "session/movers.h"
+#include "session/presets_near.h"
 #include "session/reading.h"
 #include "session/reference.h"
 #include "session/remembered.h"
@@ -64,7 +65,8 @@ struct Ball {
 struct Goal {
   Vec3 position{0}, normal{0, 1, 0};
   double target = 300;
-  std::vector<Rgb> lux;  ///< of each group, at unit weight
+  std::vector<Rgb> lux;      ///< of each group, at unit weight, of all as it stands
+  std::vector<Rgb> baked{};  ///< with all where it was baked
 };
 
 inline constexpr float kNear = 9;  ///< pixels that a hand may be off
@@ -119,9 +121,14 @@ struct State {
   LookKind look = LookKind::picture;
   std::map<LookKind, FalseColor> scales;
   std::string search;
+  std::vector<NearPreset> moods;  ///< beside the file
+  std::string mood_name;          ///< of the next to be saved, while it is typed
   bool reflections = true, help = false, reading = true, panels = true, resizing = false;
   std::optional<Reading> under;  ///< the pointer
   Plane plane;
+  std::vector<MeasuredPlane> planes;             ///< baked ones, of all as it stands
+  std::pair<MovedPlaces, ObjectMoves> measured;  ///< what was elsewhere then
+  uint64_t measured_version = 0;                 ///< Movers::version() then
   MovingLamps lamps;
   MovingObjects objects;
   std::optional<Ball> ball;
@@ -134,7 +141,7 @@ struct State {
   double fade_seconds = 1;
 
   Movers movers() const { return {lamps.mover.get(), objects.mover.get()}; }
-  /// Numbers that layers give know lamps and objects where they were baked.
+  /// Something is not where it was baked, nor is its light.
   bool away() const { return movers().any(); }
   bool dragging() const { return lamps.drag.grip != Grip::none || objects.drag.grip != Grip::none; }
   bool ready() const { return canvas != nullptr || sheet != nullptr; }
@@ -166,8 +173,16 @@ class Viewer {
   void navigate();
   void keys();
   void set_look(LookKind look);
+  /// What is shown of planes and goals and not baked: by paths, all as it stands.
   void measure();
+  void take_measured(std::vector<MeasuredLight> parts);
+  /// Measures anew where lamps or objects have come to rest elsewhere.
+  void follow_moves();
+  /// One that is traced.
+  void show_plane();
   void show_plane(const MeasuredPlane& baked);
+  /// What meters cannot know of what is seen; "" = nothing.
+  std::string unmeasured() const;
   /// Figures of all planes as mixed, a line each, with a head. @throws Error
   void write_figures(const std::filesystem::path& file) const;
   /// @throws Error where the package has no probes
@@ -222,12 +237,18 @@ class Viewer {
   void seek();
   void seek_picture(const std::filesystem::path& file);
   void refine_reference();
+  /// @param part  of the picture's width and height is its resolution, 1 / part
+  void trace_reference(int part);
+  /// A scale that fits the mix. @param scale  whose kind is kept
+  FalseColor scale_now(LookKind look, const FalseColor& scale = {}) const;
   /// What mirrors show, by rays, as soon as the picture rests.
   void follow_mirrors();
   void screenshot();
   /// PNG as shown, OpenEXR linear. @throws Error
   void write_picture(const std::filesystem::path& file) const;
   void save_preset();
+  void find_moods();
+  void fade_to_file(const std::filesystem::path& preset);
   /// @param output  as `sconce render --turntable` takes it @throws as Frames
   void begin_turn(const std::string& output, int count);
   /// A film, or numbered pictures where ffmpeg is not installed.
@@ -250,6 +271,7 @@ class Viewer {
   void status_bar(ImVec2 at, ImVec2 size);
   void side_panel(ImVec2 at, ImVec2 size);
   void mix_panel();
+  void moods_section();
   void fader_row(std::size_t group);
   /// A group in words: flux, light, lamps.
   std::string about(std::size_t group) const;
@@ -257,6 +279,7 @@ class Viewer {
   void look_panel();
   void design_panel();
   void plane_section();
+  void standing_line();
   void baked_section();
   void overlays();
   void legend(ImDrawList& draw);
@@ -272,7 +295,8 @@ class Viewer {
   std::vector<Action> script_;
   Background<AnyOpened> opening_;
   Background<std::filesystem::path> baking_;
-  Background<MeasuredLight> measuring_, tracing_;
+  Background<std::vector<MeasuredLight>> measuring_;
+  Background<MeasuredLight> tracing_;
   Background<std::shared_ptr<const Movable>> preparing_;
   Background<LampMover::Fine> refining_;
   Background<std::shared_ptr<ObjectMover>> finding_;
@@ -293,17 +317,15 @@ class Viewer {
     double own, drawing;
   };
   std::vector<FrameTime> times_;
-  uint64_t mirrored_ = 0;  ///< Canvas::version() that rays were sent for
-  std::optional<ReferencePicture> reference_;
+  uint64_t mirrored_ = 0;                               ///< Canvas::version() that rays were sent for
+  std::optional<ReferencePicture> reference_, coming_;  ///< that is shown; whose first light is traced
+  int coming_part_ = 0;                                 ///< see trace_reference()
   std::optional<MeasuredLight> traced_;
   bool drawing_more_ = false, want_shot_ = false;
   std::optional<Image8> shot_;
   std::optional<Hands> hands_;
   std::filesystem::path own_folder_;  ///< of what is baked; goes when the window does
 };
-
-/// What the window says beside numbers while lamps or objects are elsewhere.
-inline constexpr const char* kAsBaked = "with all where it was baked";
 
 /// Opens the window and returns when it is closed, or when the script has ended.
 /// @throws Error: no display, old OpenGL, and in a script whatever goes wrong

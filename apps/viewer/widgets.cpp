@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/widgets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -98,6 +100,44 @@ bool color_chip(const char* id, ImU32 color, float width) {
   return pressed;
 }
 
+bool slider(const char* id, const char* name, const std::string& words, float* value, float low, float high,
+            ImGuiSliderFlags flags) {
+  ImGui::PushFont(fonts().small);
+  ImGui::TextDisabled("%s", name);
+  ImGui::PopFont();
+  ImGui::SameLine(0, 0);
+  words_at_end(fonts().small, palette::kText, words);
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - px(3));
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_GrabRounding, px(8));
+  const bool moved = ImGui::SliderFloat(id, value, low, high, "", flags);
+  ImGui::PopStyleVar(2);
+  return moved;
+}
+
+std::string signed_words(double value, int digits) {
+  const std::string words = fmt::format("{:+.{}f}", value, digits);
+  return words.front() == '-' ? "\u2212" + words.substr(1) : words;
+}
+
+float Rows::next(const std::string& words) {
+  const float wide = std::min(ImGui::CalcTextSize(words.c_str()).x + px(20), width_);
+  if (used_ > 0 && used_ + wide <= width_)
+    ImGui::SameLine();
+  else
+    used_ = 0;
+  used_ += wide + ImGui::GetStyle().ItemSpacing.x;
+  return wide;
+}
+
+void words_at_end(ImFont* font, ImU32 color, const std::string& words) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float end = at.x + ImGui::GetContentRegionAvail().x;
+  text(*ImGui::GetWindowDrawList(), font, {end - width_of(font, words), at.y}, color, words);
+  ImGui::NewLine();
+}
+
 void kelvin_ramp(ImVec2 size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   constexpr int kSteps = 48;
@@ -132,6 +172,16 @@ std::string fitting(const std::string& line, float width) {
     cut.pop_back();
   }
   return cut + "...";
+}
+
+void dashed_frame(ImDrawList& draw, ImVec2 low, ImVec2 high) {
+  const float dash = px(8), gap = px(7), thick = px(1.5f);
+  for (float x = low.x; x < high.x; x += dash + gap)
+    for (const float y : {low.y, high.y})
+      draw.AddLine({x, y}, {std::min(x + dash, high.x), y}, palette::kFaint, thick);
+  for (float y = low.y; y < high.y; y += dash + gap)
+    for (const float x : {low.x, high.x})
+      draw.AddLine({x, y}, {x, std::min(y + dash, high.y)}, palette::kFaint, thick);
 }
 
 void card(ImDrawList& draw, ImVec2 at, ImVec2 size) {

@@ -137,6 +137,13 @@ void LampMover::refine(const Fine& fine) {
     if (lit->state == fine.task.state && !lit->stale) lit->light = fine.light, lit->fine = true, ++version_;
 }
 
+std::vector<StandingLamp> LampMover::standing() const {
+  std::vector<StandingLamp> out;
+  for (const auto& [lamp, entry] : moved_)
+    if (entry.now.state) out.push_back({lamp, *entry.now.state, entry.now.other});
+  return out;
+}
+
 std::vector<MovedGroup> LampMover::taken(MixSpec& mix) const {
   std::vector<LampMove> moves;
   for (const auto& [lamp, entry] : moved_)

@@ -93,6 +93,8 @@ class LampMover {
   void refine(const Fine& fine);
 
   bool any() const { return !moved_.empty(); }
+  /// Those that are elsewhere, or others, for rays.
+  std::vector<StandingLamp> standing() const;
   /// Counts changes of light.
   uint64_t version() const { return version_; }
 

@@ -17,27 +17,48 @@ Rgb MeasuredLight::mixed(std::size_t point, const MixSpec& mix) const {
   return sum;
 }
 
+MeasuredLight part_of(const MeasuredLight& light, std::size_t first, std::size_t end) {
+  const auto at = [&](std::size_t point) {
+    return light.values.begin() + static_cast<std::ptrdiff_t>(point * light.groups);
+  };
+  return {light.groups, light.samples, {at(first), at(end)}};
+}
+
 struct PointMeter::World {
-  explicit World(const View& view_) : view(view_), lamps(view_.scene(), view_.world()) {}
-  const View& view;
+  explicit World(const View& view)
+      : scene(view.scene()), world(view.world()), tracer(view.tracer()), lamps(scene, world) {}
+  explicit World(std::shared_ptr<const StandingScene> standing)
+      : kept(std::move(standing)),
+        scene(kept->scene()),
+        world(kept->world()),
+        tracer(kept->tracer()),
+        lamps(scene, world) {}
+  std::shared_ptr<const StandingScene> kept;
+  const Scene& scene;
+  const sconce::World& world;
+  const Tracer& tracer;
   Lamps lamps;
 };
 
-PointMeter::PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind)
-    : world_(std::make_unique<World>(view)), points_(std::move(points)), kind_(kind) {
-  light_.groups = view.scene().groups.size();
+PointMeter::PointMeter(std::unique_ptr<World> world, std::vector<SurfacePoint> points, ReceiverKind kind)
+    : world_(std::move(world)), points_(std::move(points)), kind_(kind) {
+  light_.groups = world_->scene.groups.size();
   light_.values.resize(points_.size() * light_.groups);
 }
+PointMeter::PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind)
+    : PointMeter(std::make_unique<World>(view), std::move(points), kind) {}
+PointMeter::PointMeter(std::shared_ptr<const StandingScene> scene, std::vector<SurfacePoint> points,
+                       ReceiverKind kind)
+    : PointMeter(std::make_unique<World>(std::move(scene)), std::move(points), kind) {}
 PointMeter::PointMeter(PointMeter&&) noexcept = default;
 PointMeter::~PointMeter() = default;
 
 void PointMeter::pass(int samples, const Progress& progress) {
-  const View& view = world_->view;
+  const World& w = *world_;
   BakeParams params;
   params.samples = samples;
   params.seed = ++passes_;
-  const auto solver = find_solver("path").prepare({view.scene(), view.world(), view.tracer(), world_->lamps},
-                                                  params, progress);
+  const auto solver = find_solver("path").prepare({w.scene, w.world, w.tracer, w.lamps}, params, progress);
   std::vector<Rgb> fresh(light_.values.size());
   parallel_for(points_.size(), 16, [&](std::size_t i) {
     progress.check();

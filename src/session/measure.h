@@ -7,6 +7,7 @@
 #include "package/points.h"
 #include "picture/render.h"
 #include "scene/measuring_plane.h"
+#include "session/standing.h"
 #include "solve/solver.h"
 
 namespace sconce {
@@ -20,6 +21,9 @@ struct MeasuredLight {
   std::size_t points() const { return groups == 0 ? 0 : values.size() / groups; }
   Rgb mixed(std::size_t point, const MixSpec& mix) const;
 };
+
+/// Points [first, end) of it.
+MeasuredLight part_of(const MeasuredLight& light, std::size_t first, std::size_t end);
 
 /// A plane that was measured, and whose name it has in the package.
 struct MeasuredPlane {
@@ -38,6 +42,8 @@ class PointMeter {
  public:
   /// @param view  of the package; must outlive it
   PointMeter(const View& view, std::vector<SurfacePoint> points, ReceiverKind kind);
+  /// Of lamps and objects where they are. Groups are those of the package.
+  PointMeter(std::shared_ptr<const StandingScene> scene, std::vector<SurfacePoint> points, ReceiverKind kind);
   PointMeter(PointMeter&&) noexcept;
   ~PointMeter();
   /// `samples` more paths at every point. @throws Cancelled; nothing of the pass counts then
@@ -46,6 +52,7 @@ class PointMeter {
 
  private:
   struct World;
+  PointMeter(std::unique_ptr<World> world, std::vector<SurfacePoint> points, ReceiverKind kind);
   std::unique_ptr<World> world_;
   std::vector<SurfacePoint> points_;
   ReceiverKind kind_;

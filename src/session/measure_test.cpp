@@ -51,6 +51,30 @@ TEST_F(Measured, InverseSquare) {
   EXPECT_EQ(unreached(meter.light()), (std::vector<uint8_t>{0, 0}));
 }
 
+// The lamp went half a metre above the point; then it became one of 50 cd; then a shader, of which rays know
+// nothing. Always in its group.
+TEST_F(Measured, LampsAreMeasuredWhereTheyStand) {
+  const auto opened = open(2);
+  const auto lux = [&](const StandingLamp& lamp) {
+    const auto scene = std::make_shared<const StandingScene>(opened->rays.scene(), opened->rays.world(),
+                                                             std::span(&lamp, 1));
+    PointMeter meter(scene, {{{0, 0, 0.3f}, {0, 0, 1}, {0, 0, 1}}}, ReceiverKind::plane);
+    meter.pass(16, {});
+    EXPECT_EQ(meter.light().mixed(0, {{Rgb(0), Rgb(1)}}).r, 0);
+    return lux_of(meter.light(), {{Rgb(1), Rgb(0)}})[0];
+  };
+  StandingLamp lamp{0, {{0, 0, 0.8f}}};
+  EXPECT_NEAR(lux(lamp), 100 / 0.25, 0.05);
+  lamp.state.kind = "point";
+  EXPECT_EQ(lux(lamp), 0);
+  Light other;
+  other.frame[3] = {0, 0, 0.8f, 1};
+  other.intensity = Rgb(50);
+  other.shape = sconce::PointLight{};
+  lamp.other = MoreLights{{other}, {}};
+  EXPECT_NEAR(lux(lamp), 50 / 0.25, 0.05);
+}
+
 TEST(MeasuringPlane, PointsAreTheMiddlesOfCells) {
   Bounds room;
   room.add({0, 0, 0});

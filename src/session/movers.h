@@ -2,6 +2,8 @@
 // All that stands elsewhere than it was baked, as one lightmap.
 #pragma once
 
+#include <set>
+
 #include "session/lamp_mover.h"
 #include "session/object_mover.h"
 
@@ -15,6 +17,19 @@ struct Movers {
   /// Counts changes of light.
   uint64_t version() const {
     return (lamps != nullptr ? lamps->version() : 0) + (objects != nullptr ? objects->version() : 0);
+  }
+  /// Lamps that are elsewhere, for rays.
+  std::vector<StandingLamp> standing() const {
+    return lamps != nullptr ? lamps->standing() : std::vector<StandingLamp>();
+  }
+  /// Groups whose light is not as it was baked, of `count`.
+  std::vector<std::size_t> changed(std::size_t count) const {
+    std::set<std::size_t> groups;
+    for (const StandingLamp& one : standing())
+      groups.insert(lamps->movable().lamps.all()[one.lamp].group.value);
+    if (objects != nullptr && objects->any())
+      for (std::size_t g = 0; g < count; ++g) groups.insert(g);
+    return {groups.begin(), groups.end()};
   }
   /// The mixed lightmap.
   std::vector<Image> pages(Mixer& mixer, const MixSpec& mix) const {

@@ -7,6 +7,20 @@
 
 namespace sconce {
 
+namespace {
+
+/// Bilinear.
+Rgb page_at(const Image& page, Vec2 uv) {
+  const TexelPlace x(uv.x, page.width), y(uv.y, page.height);
+  const int x1 = std::min(x.low + 1, page.width - 1), y1 = std::min(y.low + 1, page.height - 1);
+  const auto row = [&](int at) {
+    return (1 - x.fraction) * page.rgb_at(x.low, at) + x.fraction * page.rgb_at(x1, at);
+  };
+  return (1 - y.fraction) * row(y.low) + y.fraction * row(y1);
+}
+
+}  // namespace
+
 std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv) {
   const TexelPlace x(uv.x, layers.width()), y(uv.y, layers.height());
   const int x1 = std::min(x.low + 1, layers.width() - 1), y1 = std::min(y.low + 1, layers.height() - 1);
@@ -41,7 +55,7 @@ std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv) {
 }
 
 Reading read_pixel(const View& view, const EncodedLayers& layers, const MixSpec& mix, const Camera& camera,
-                   const PictureParams& params, Vec2 at) {
+                   const PictureParams& params, Vec2 at, const GroupPages& moved) {
   const Lens lens(camera, params);
   const Ray ray{lens.eye(), lens.direction(at)};
   const Hit hit = view.tracer().closest(ray);
@@ -62,7 +76,10 @@ Reading read_pixel(const View& view, const EncodedLayers& layers, const MixSpec&
     if (side.page >= 0) {
       const std::vector<Rgb> lux = layers_at(layers, side.page, side.at(hit.barycentric));
       for (std::size_t g = 0; g < lux.size(); ++g) {
-        const Rgb light = mix.weights.at(g) * lux[g];
+        const auto relit = moved.find(g);
+        const Rgb light = relit == moved.end() ? mix.weights.at(g) * lux[g]
+                                               : page_at(relit->second[static_cast<std::size_t>(side.page)],
+                                                         side.at(hit.barycentric));
         reading.illuminance += light;
         reading.group_lux.push_back(luminance(light));
       }

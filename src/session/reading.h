@@ -2,6 +2,8 @@
 // What there is under the pointer.
 #pragma once
 
+#include <map>
+
 #include "mix/encoded_layers.h"
 #include "picture/render.h"
 
@@ -9,6 +11,10 @@ namespace sconce {
 
 /// E_g of every group at a place of the lightmap, RGB lux at unit weight, bilinear as pictures look it up.
 std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv);
+
+/// Light that layers do not know, because something is not where it was baked: pages of each such group, as
+/// weighted.
+using GroupPages = std::map<std::size_t, std::vector<Image>>;
 
 struct Reading {
   bool surface = false;  ///< else only the sky is there, and `luminance`
@@ -21,8 +27,9 @@ struct Reading {
   std::vector<float> group_lux;  ///< of each group, weighted; empty where no light is kept
 };
 
-/// @param at  in pixels from the top left
+/// @param at     in pixels from the top left
+/// @param moved  in place of these groups' layers
 Reading read_pixel(const View& view, const EncodedLayers& layers, const MixSpec& mix, const Camera& camera,
-                   const PictureParams& params, Vec2 at);
+                   const PictureParams& params, Vec2 at, const GroupPages& moved = {});
 
 }  // namespace sconce
