@@ -64,6 +64,10 @@ async function keysMoveAndRead() {
 async function soloAndPreset() {
   const { page } = await openPage(browser, site.url);
   await settled(page);
+  const first = page.locator('input[type=range]').first();
+  assert.equal(await first.inputValue(), '-2', 'the first mood is there at once');
+  await page.getByRole('button', { name: 'Reset' }).click();
+  assert.equal(await first.inputValue(), '0');
   const solos = page.locator('.solo');
   assert.ok((await solos.count()) > 1);
   await solos.first().click();

@@ -159,7 +159,10 @@ async function start(): Promise<void> {
   addEventListener('resize', resize);
   resize();
   new Reader(sconce, renderer, look);
-  new Live(state, document.querySelector<HTMLMetaElement>('meta[name=sconce-live]')?.content ?? '', () => panel.show());
+  const live = document.querySelector<HTMLMetaElement>('meta[name=sconce-live]')?.content ?? '';
+  // Where nobody else moves faders the first mood is what is seen first.
+  if (live === '' && sconce.presets[0]) panel.start(sconce.presets[0]);
+  new Live(state, live, () => panel.show());
   await loadAll(sconce);
 }
 

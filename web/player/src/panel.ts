@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel: moods, strips, camera, exposure, curve.
 
-import { kelvinColor } from 'sconce-three';
+import { kelvinColor, type SitePreset } from 'sconce-three';
 
 import { element } from './dom';
 import { type FaderColor, kPlain } from './fader';
 import type { Look } from './look';
 import type { State } from './state';
 import { Strip } from './strip';
+
+const kRoomy = 8; // strips; of more, colours stand beside the fader
 
 function display(linear: readonly number[]): string {
   const most = Math.max(...linear, 1e-6);
@@ -65,7 +67,7 @@ export class Panel {
     root.replaceChildren(
       element('header', {}, element('h1', {}, sconce.name || 'sconce'), reset),
       ...this.moods(),
-      element('ul', { class: 'strips', 'aria-label': 'Lights' }, ...this.strips.map((strip) => strip.root)),
+      element('ul', { class: this.strips.length > kRoomy ? 'strips many' : 'strips', 'aria-label': 'Lights' }, ...this.strips.map((strip) => strip.root)),
       element(
         'section', { class: 'picture', 'aria-label': 'Picture' },
         ...this.cameras(),
@@ -96,16 +98,19 @@ export class Panel {
     this.exposureText.textContent = isAbsolute ? text : Math.abs(value) < 0.05 ? '0' : value > 0 ? `+${text}` : text.replace('-', '−');
   }
 
+  /** Fades to a mood, its camera too. */
+  start(preset: SitePreset): void {
+    this.state.applyPreset(preset);
+    const camera = this.state.sconce.site.cameras.findIndex((c) => c.name === preset.camera);
+    if (camera >= 0) this.look.show(camera);
+  }
+
   private moods(): HTMLElement[] {
     const { presets } = this.state.sconce;
     if (presets.length === 0) return [];
     const buttons = presets.map((preset) => {
       const button = element('button', { type: 'button' }, preset.name);
-      button.addEventListener('click', () => {
-        this.state.applyPreset(preset);
-        const camera = this.state.sconce.site.cameras.findIndex((c) => c.name === preset.camera);
-        if (camera >= 0) this.look.show(camera);
-      });
+      button.addEventListener('click', () => this.start(preset));
       return button;
     });
     return [element('nav', { class: 'moods', 'aria-label': 'Moods' }, ...buttons)];
