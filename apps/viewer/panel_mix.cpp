@@ -19,10 +19,14 @@ struct Words {
   std::string stops, gain, lumens, kelvin;
 };
 
+std::string lumens(double flux) {
+  return flux < 10 ? fmt::format("{:.2g} lm", flux) : fmt::format("{:.0f} lm", flux);
+}
+
 Words in_words(const GroupInfo& group, const Fader& fader, double master) {
   if (!fader.on) return {"off", {}, {}, {}};
   return {signed_words(stops_of(fader.gain), 1) + " EV", fmt::format("\u00d7{:.3g}", fader.gain),
-          group.lumens > 0 ? fmt::format("{:.0f} lm", group.lumens * fader.gain * master) : "",
+          group.lumens > 0 ? lumens(group.lumens * fader.gain * master) : "",
           fader.color == Fader::Color::kelvin ? fmt::format("{:.0f} K", fader.kelvin) : ""};
 }
 
@@ -107,7 +111,7 @@ std::string Viewer::about(std::size_t g) const {
   const GroupInfo& group = state_.session->groups()[g];
   if (state_.sheet)
     return fmt::format("{}\nmean {:.3g} as rendered", group.name, state_.sheet->opened().means[g]);
-  const std::string flux = group.lumens > 0 ? fmt::format("{:.0f} lm as baked, ", group.lumens) : "";
+  const std::string flux = group.lumens > 0 ? lumens(group.lumens) + " as baked, " : "";
   std::string line = fmt::format("{}\n{}mean {:.1f} lux, noise {:.1f} %", group.name, flux, group.mean_lux,
                                  100 * group.noise);
   constexpr std::size_t kMost = 12;
