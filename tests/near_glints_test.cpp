@@ -10,6 +10,7 @@
 #include "gpu/view.h"
 #include "package/test_unlit.h"
 #include "picture/glint.h"
+#include "picture/gloss.h"
 #include "picture/render.h"
 #include "relight/test_near_spots.h"
 #include "scene/groups.h"
@@ -70,6 +71,15 @@ class NearGlints : public testing::Test {
     return scene;
   }
 
+  /// What the coat leaves to what is diffuse, in the mean over the rays of a lobe.
+  static float let_through(const Shade& surface, const Vec3& to_eye, const SurfacePoint& at) {
+    if (!mirrors(surface)) return 1;
+    constexpr uint32_t kRays = 256;
+    double sum = 0;
+    for (uint32_t i = 0; i < kRays; ++i)
+      sum += static_cast<double>(gloss(surface, to_eye, at, sobol_pair(i, 0, 9)).diffuse);
+    return static_cast<float>(sum / kRays);
+  }
   /// Per pixel: what it shows of a lamp.
   struct Shown {
     Image diffuse, mirrored, as_if_matt;
@@ -92,7 +102,8 @@ class NearGlints : public testing::Test {
           e += share * static_cast<float>(near_spots(lamp, at, nullptr, c));
           if (mirrors(surface)) glints += share * near_glints(lamp, surface, -direction, at, c);
         }
-        out.diffuse.set_rgb(x, y, surface.receiver_albedo() * kInvPi * lamp.scale * e);
+        out.diffuse.set_rgb(
+            x, y, let_through(surface, -direction, at) * surface.receiver_albedo() * kInvPi * lamp.scale * e);
         out.mirrored.set_rgb(x, y, lamp.scale * glints);
         out.as_if_matt.set_rgb(x, y, surface.base_color * kInvPi * lamp.scale * e);
       }

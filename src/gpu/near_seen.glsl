@@ -21,6 +21,7 @@ vec3 near_seen(SconceSurface s) {
     float lux = near_lux(i, p, to, 1.0);
     sum += lux * cosine, glints += lux * lobe;
   }
-  vec3 albedo = mirrors ? s.base * (1.0 - s.metallic) : s.base;  // metals that mirror nothing are as if matt
+  // Metals that mirror nothing are as if matt.
+  vec3 albedo = mirrors ? s.base * ((1.0 - s.metallic) * sconce_through(s)) : s.base;
   return near_color * albedo * 0.318309886 * sum + near_shine * glints;
 }
