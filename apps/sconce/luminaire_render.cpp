@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 
 #include "app.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/parallel.h"
 #include "core/sobol.h"
 #include "core/text.h"
 #include "image/io.h"
 #include "light/luminaire.h"
 #include "luminaire.h"
+#include "luminaire_between.h"
 #include "photometry/formats.h"
 #include "photometry/light_field_file.h"
 
@@ -74,36 +77,33 @@ Predicted predict(const Wall& wall, const NearLamp& lamp, double exact_below) {
 }
 
 /// Rays where they land: the lamp itself, with its noise. @param luminous  are they in lumens?
-Image land(const Wall& wall, const std::string& file, const Progress& progress, bool& luminous) {
+Image land(const Wall& wall, const std::string& file, const Between* between, const Progress& progress,
+           bool& luminous) {
   Image out = Image::rgb(wall.size, wall.size);
   std::vector<glm::dvec3> sums(out.pixels());
   const double step = wall.width / wall.size;
+  const auto pixel = [&](int x, int y) -> glm::dvec3& {
+    return sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
+                static_cast<std::size_t>(x)];
+  };
+  const auto land = [&](const SourceRay& ray) {
+    const double way =
+        (static_cast<double>(ray.position.z) + wall.distance) / static_cast<double>(-ray.direction.z);
+    if (!(way > 0)) return;
+    const glm::dvec2 at = glm::dvec2(ray.position) + way * glm::dvec2(ray.direction);
+    const double x = (at.x + 0.5 * wall.width) / step, y = (0.5 * wall.width - at.y) / step;
+    if (!(x >= 0 && y >= 0 && x < wall.size && y < wall.size)) return;
+    Rgb light = ray.color;
+    if (between != nullptr) light *= between->passed(ray.position, ray.direction, way);
+    pixel(static_cast<int>(x), static_cast<int>(y)) +=
+        static_cast<double>(ray.flux) * glm::dvec3(light.r, light.g, light.b);
+  };
   luminous = read_rays(
-                 file,
-                 [&](std::span<const SourceRay> rays) {
-                   for (const SourceRay& ray : rays) {
-                     const double drop = (static_cast<double>(ray.position.z) + wall.distance) /
-                                         static_cast<double>(-ray.direction.z);
-                     if (!(drop > 0)) continue;
-                     const double x = (static_cast<double>(ray.position.x + ray.direction.x * drop) +
-                                       0.5 * wall.width) /
-                                      step,
-                                  y = (0.5 * wall.width -
-                                       static_cast<double>(ray.position.y + ray.direction.y * drop)) /
-                                      step;
-                     if (!(x >= 0 && y >= 0 && x < wall.size && y < wall.size)) continue;
-                     sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
-                          static_cast<std::size_t>(x)] +=
-                         static_cast<double>(ray.flux) * glm::dvec3(ray.color.r, ray.color.g, ray.color.b);
-                   }
-                 },
-                 progress)
+                 file, [&](std::span<const SourceRay> rays) { std::ranges::for_each(rays, land); }, progress)
                  .luminous;
   for (int y = 0; y < wall.size; ++y)
     for (int x = 0; x < wall.size; ++x) {
-      const Vec3 lux = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(wall.size) +
-                            static_cast<std::size_t>(x)] /
-                       (step * step);
+      const Vec3 lux = pixel(x, y) / (step * step);
       out.set_rgb(x, y, Rgb(lux.x, lux.y, lux.z));
     }
   return out;
@@ -141,7 +141,8 @@ void write_picture(const std::string& file, const Image& image) {
 int run_luminaire_render(int argc, const char* const* argv) {
   std::string file, output;
   double distance = 1, width = 0, exact_below = 0.1;
-  int size = 256;
+  int size = 256, shadow_rays = 256;
+  std::string scene;
   Options options("luminaire render",
                   "What a lamp alone throws onto a wall across its nadir: lux as .exr, or a .png.",
                   {"sconce luminaire render lamp.ldt -o wall.png",
@@ -156,6 +157,10 @@ int run_luminaire_render(int argc, const char* const* argv) {
       "--exact-below", &exact_below,
       "light fields: error that the shift-invariant approximation may have by the geometry that it "
       "freezes; where it is above, the exact reconstruction is used (0 = everywhere)");
+  options.option(
+      "--scene", &scene,
+      "scene that stands between them and throws shadows: the lamp hangs at its origin, nadir -y, C0 +x");
+  options.option("--shadow-rays", &shadow_rays, "with --scene, per pixel");
   if (const auto code = options.parse(argc, argv)) return *code;
   const std::string type = lower(std::filesystem::path(output).extension().string());
   if (type != ".exr" && type != ".png")
@@ -164,8 +169,18 @@ int run_luminaire_render(int argc, const char* const* argv) {
   if (!(width >= 0)) throw UsageError("--width", "is negative", "metres >= 0");
   if (!(exact_below >= 0)) throw UsageError("--exact-below", "is negative", "an error >= 0, e.g. 10%");
   if (size < 1 || size > 8192) throw UsageError("--size", "is out of range", "1 to 8192");
+  if (shadow_rays < 1 || shadow_rays > 65536)
+    throw UsageError("--shadow-rays", "is out of range", "1 to 65536");
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
+  std::optional<Between> between;
+  if (!scene.empty()) between.emplace(scene, progress);
+  const auto shaded = [&](const Wall& seen, Luminaire lamp) {
+    between->hang(std::move(lamp), exact_below);
+    return paint(seen, progress, [&](const Vec3& x) {
+      return between->lux(x, shadow_rays, mix32(std::bit_cast<uint32_t>(x.x), std::bit_cast<uint32_t>(x.y)));
+    });
+  };
   const Wall wall{distance, width > 0 ? width : 2 * distance, size};
 
   Image image;
@@ -177,19 +192,23 @@ int run_luminaire_render(int argc, const char* const* argv) {
     std::vector<NearLamp> colors;
     for (int c = 0; c < 3 && !field.is_grey(); ++c) colors.emplace_back(channel_of(field, c));
     const Vec3 up(0, 0, 1);
-    image = paint(wall, progress, [&](const Vec3& x) {
-      if (colors.empty()) return Rgb(static_cast<float>(lamp.illuminance(x, up, exact_below)));
-      const auto lux = [&](std::size_t c) {
-        return static_cast<float>(colors[c].illuminance(x, up, exact_below));
-      };
-      return Rgb(lux(0), lux(1), lux(2));
-    });
+    if (between)
+      image = shaded(wall, {file, far_field(lamp, 5), std::make_shared<LightField>(field)});
+    else
+      image = paint(wall, progress, [&](const Vec3& x) {
+        if (colors.empty()) return Rgb(static_cast<float>(lamp.illuminance(x, up, exact_below)));
+        const auto lux = [&](std::size_t c) {
+          return static_cast<float>(colors[c].illuminance(x, up, exact_below));
+        };
+        return Rgb(lux(0), lux(1), lux(2));
+      });
     predicted = predict(wall, lamp, exact_below);
   } else {
     try {
-      image = land(wall, file, progress, luminous);
+      image = land(wall, file, between ? &*between : nullptr, progress, luminous);
     } catch (const NotMyFormat&) {
-      image = paint_table(wall, read_luminaire(file, 5, progress).photometry, progress);
+      Photometry table = read_luminaire(file, 5, progress).photometry;
+      image = between ? shaded(wall, {file, std::move(table)}) : paint_table(wall, table, progress);
     }
   }
   double sum = 0, most = 0;
