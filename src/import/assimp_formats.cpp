@@ -23,11 +23,12 @@ namespace {
 
 struct AssimpFormat {
   std::string_view ending, name;
-  bool has_units;  ///< else metres, with a warning
+  bool has_units;      ///< else metres, with a warning
+  bool has_materials;  ///< else white is assimp's word, and grey is used
 };
 constexpr AssimpFormat kFormats[] = {
-    {".3ds", "3DS", false}, {".fbx", "FBX", true},  {".dae", "COLLADA", true},
-    {".ply", "PLY", false}, {".stl", "STL", false},
+    {".3ds", "3DS", false, true},  {".fbx", "FBX", true, true},   {".dae", "COLLADA", true, true},
+    {".ply", "PLY", false, false}, {".stl", "STL", false, false},
 };
 
 const AssimpFormat& format_of(const fs::path& path) {
@@ -46,6 +47,12 @@ Mat4 upright(const aiScene& read) {
   if (axis == 2) return glm::rotate(Mat4(1), -turn, Vec3(1, 0, 0));
   if (axis == 0) return glm::rotate(Mat4(1), turn, Vec3(0, 0, 1));
   return Mat4(1);
+}
+
+/// Walls that lose no light would be the brightest there are.
+void use_grey(Scene& scene) {
+  for (Material& m : scene.materials)
+    if (m.base_color == Rgb(1) && !m.base_color_texture.texture) m.base_color = kUnsaidDiffuse;
 }
 
 bool side_file_has_unit(const fs::path& path) {
@@ -77,6 +84,7 @@ Scene import_assimp(const fs::path& path, const Progress& progress) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene& read = run_assimp(importer, path, format.name, aiProcess_GlobalScale);
   Scene scene = read_assimp(read, path, upright(read), progress);
+  if (!format.has_materials) use_grey(scene);
   if (!format.has_units && !side_file_has_unit(path)) progress.warn(assumed_metres(path, format.name, scene));
   return scene;
 }

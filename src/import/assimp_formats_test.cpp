@@ -35,6 +35,8 @@ TEST(AssimpFormats, StlAndPlyAreTriangles) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
       "4 0 1 2 3\n"));
   EXPECT_EQ(ply.meshes.at(0).triangles.size(), 2u);
+  for (const Scene* scene : {&stl, &ply})
+    EXPECT_EQ((*scene)[scene->meshes.at(0).material].base_color, Rgb(0.6f)) << "white would lose no light";
 }
 
 TEST(AssimpFormats, UnitAndUpOfTheSideFile) {

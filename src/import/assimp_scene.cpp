@@ -84,8 +84,9 @@ Scene read_assimp(const aiScene& read, const std::filesystem::path& file, const 
                   const Progress& progress) {
   Scene scene;
   scene.name = file.stem().string();
-  AssimpMaterials materials(file, read, scene, progress);
-  for (unsigned i = 0; i < read.mNumMaterials; ++i) materials.add(*read.mMaterials[i]);
+  PlainMaterials materials(
+      file, [&](const std::string& name) { return assimp_picture(file, read, name); }, scene, progress);
+  for (unsigned i = 0; i < read.mNumMaterials; ++i) materials.add(plain_material(*read.mMaterials[i]));
   materials.drop_unused_textures();
   std::vector<Id<Mesh>> meshes;
   for (unsigned i = 0; i < read.mNumMeshes; ++i) {

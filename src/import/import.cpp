@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "import/assimp_materials.h"
 #include "import/gltf_source.h"
-#include "import/obj_files.h"
+#include "import/mtl.h"
 #include "import/side_parts.h"
 #include "scene/validate.h"
 

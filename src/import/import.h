@@ -27,7 +27,7 @@ std::span<const std::string_view> scene_endings();
 
 /// glTF 2.0, .gltf and .glb. @throws NotMyFormat, Error
 Scene import_gltf(const std::filesystem::path& path, const Progress& progress = {});
-/// OBJ + MTL through assimp. @throws NotMyFormat, Error
+/// OBJ + MTL. @throws NotMyFormat, Error
 Scene import_obj(const std::filesystem::path& path, const Progress& progress = {});
 
 /// 3DS, FBX, COLLADA, PLY and STL through assimp, by file name ending. @throws NotMyFormat, Error

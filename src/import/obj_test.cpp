@@ -95,7 +95,89 @@ TEST(Obj, OpacityMapsCutOut) {
   EXPECT_EQ(scene_files(path).size(), 4u);  // what a bake's hash is of
 }
 
-// assimp would follow a null pointer there.
+/// The scene of an OBJ text.
+Scene obj(const std::string& text, const Progress& progress = {}) {
+  const TemporaryFolder folder;
+  return import_obj(folder.write("x.obj", text), progress);
+}
+
+TEST(Obj, IndicesContinuationsAndLineEnds) {
+  const std::string box = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto as_written = [](const Scene& scene) {
+    std::vector<Vec3> out;
+    for (const Triangle& t : scene.meshes.at(0).triangles)
+      for (const uint32_t v : t.v) out.push_back(scene.meshes.at(0).positions[v]);
+    return out;
+  };
+  const std::vector<Vec3> wanted = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  for (const char* face : {"f 1 2 3\n", "f -4 -3 -2", "f 1/ 2/ 3/ # that is all\n", "f 1 \\\n 2 3\n",
+                           "f 1 \\\r\n 2 3\r\n", "\tf\t1\t2\t3 \r", "f 1//\t2// 3//\nf 1 2\nl 1 2 3\np 1\n"})
+    EXPECT_EQ(as_written(obj(box + face)), wanted) << face;
+  EXPECT_EQ(obj(box + "f 1 2 3\nf 1 3 4\n").meshes.at(0).positions.size(), 4u) << "corners are shared";
+  EXPECT_EQ(
+      obj("\xef\xbb\xbf" + box + "v 0 1 0 0.5\nf 1 2 3\nf 1 3 5\nf 1 3 4\n").meshes.at(0).positions.size(),
+      4u)
+      << "alike places, too";
+}
+
+// One part per name, material and kind of corner, wherever its faces stand.
+TEST(Obj, PartsAndTheirNames) {
+  const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  const Scene scene = obj(head +
+                          "f 1 2 3\nusemtl red\nf 1 2 3\ng a wall\nf 1 2 3\no b\nf 1 2 3\ng a wall\nf 3 2 1\n"
+                          "f 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1 3\n");
+  std::vector<std::string> names;
+  for (const Instance& i : scene.instances) names.push_back(i.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"x", "red", "a wall", "b", "a wall", "a wall"}));
+  EXPECT_EQ(scene.meshes[2].triangles.size(), 3u) << "the last face has half of its coordinates: none";
+  EXPECT_EQ(scene.meshes[4].texcoords.at(0), (std::vector<Vec2>(3, {0, 1})));
+  EXPECT_TRUE(obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/2/2 3/3/3\n").meshes.at(0).texcoords.empty())
+      << "some programs write indices into nothing";
+  EXPECT_EQ(scene.meshes[5].normals, (std::vector<Vec3>(3, {0, 0, 1})));
+}
+
+TEST(Obj, WhatIsWrongIsNamedWithItsLine) {
+  const auto said = [](const std::string& text) {
+    const std::string error = error_of([&] { obj("# one\nv 0 0 0\nv 1 0 \\\n0\nv 0 1 0\n" + text); });
+    return error.substr(error.find("x.obj") + 5);
+  };
+  EXPECT_EQ(said("f 1 2 4"), ":6: index 4 is out of range (allowed: 1 to 3, or negative)");
+  EXPECT_EQ(said("\nf 1 2 0"), ":7: index 0 is out of range (allowed: 1 to 3, or negative)");
+  EXPECT_EQ(said("vn 0 0 1\nf 1//1 2//2 3"), ":7: index 2 is out of range (allowed: 1 to 1, or negative)");
+  EXPECT_EQ(said("f 1 2 x"), ":6: 'x' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
+  EXPECT_EQ(said("f 1 2 //"), ":6: '//' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
+  EXPECT_EQ(said("f 1 2 3///"), ":6: '3///' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
+  EXPECT_EQ(said("v 0,5 0 0"), ":6: '0,5' is no number");
+  EXPECT_EQ(said("v 0 0"), ":6: has 2 numbers (allowed: 3)");
+  EXPECT_EQ(said("f 1 2"), ": has no faces");
+}
+
+// What programs write that divided by 0.
+TEST(Obj, TrianglesWithoutAPlaceAreLeftOut) {
+  const TemporaryFolder folder;
+  Warnings w;
+  const Scene scene = import_scene(folder.write("x.obj",
+                                                "v nan 0 0\nv -1.#IND 0 0\nv 0 -nan(ind) 0\nv 1e999 0 0\n"
+                                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan nan nan\n"
+                                                "f 1 6 7\nf 2 6 7\nf 3 6 7\nf 4 6 7\nf 5//1 6//1 7//1\n"),
+                                   w.progress);
+  EXPECT_EQ(triangles_of(scene), 1u);
+  EXPECT_TRUE(w.any("4 triangles with positions that are not numbers"));
+}
+
+TEST(Obj, FreeFormSurfacesAndUnknownMaterialsAreNamed) {
+  const TemporaryFolder folder;
+  folder.write("x.mtl", "newmtl a\n");
+  Warnings w;
+  const Scene scene = import_scene(
+      folder.write("x.obj",
+                   "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\nsurf 0 1 0 1 1 2 3\n"),
+      w.progress);
+  EXPECT_TRUE(w.any("material 'b' is in none of its material files"));
+  EXPECT_TRUE(w.any("free-form curves and surfaces are left out"));
+  EXPECT_EQ(scene.materials.at(0).base_color, Rgb(0.6f));
+}
+
 TEST(Obj, PropertiesBeforeTheFirstMaterialAreLeftOut) {
   const TemporaryFolder folder;
   folder.write("x.mtl", "# a\rKd 1 0 0\nmap_Kd x.png\nnewmtl\nd 1\nnewmtl a\r\nKd 0.5 0.25 0\n");
