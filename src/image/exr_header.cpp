@@ -9,6 +9,7 @@
 #include <ImfTileDescriptionAttribute.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 
@@ -40,6 +41,48 @@ std::tuple<std::string, int, std::string> channel_key(const std::string& name) {
 
 namespace {
 
+/// Blocks of a part that its table of places has at least, 8 bytes each.
+class Blocks {
+ public:
+  void see(std::string_view name, std::string_view value) {
+    if (name == "dataWindow") read(value, window_);
+    if (name == "tiles") read(value, tile_);
+    if (name == "chunkCount") read(value, stated_);
+    if (name == "compression" && !value.empty()) {
+      constexpr int kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};  // by Imf::Compression
+      const auto kind = static_cast<unsigned char>(value[0]);
+      lines_ = kind < std::size(kLines) ? kLines[kind] : 256;
+    }
+  }
+  /// @throws std::runtime_error
+  void check(std::size_t file_bytes) const {
+    const int64_t width = int64_t{window_[2]} - window_[0] + 1, height = int64_t{window_[3]} - window_[1] + 1;
+    const auto parts = [](int64_t all, int64_t one) {
+      return all > 0 && one > 0 ? (all + one - 1) / one : 0;
+    };
+    const double blocks =
+        tile_.x > 0 ? static_cast<double>(parts(width, tile_.x)) * static_cast<double>(parts(height, tile_.y))
+                    : static_cast<double>(parts(height, lines_));
+    if (8 * std::max(blocks, static_cast<double>(stated_)) > static_cast<double>(file_bytes))
+      throw std::runtime_error("claims " + std::to_string(width) + " x " + std::to_string(height) +
+                               " pixels in more blocks than its " + std::to_string(file_bytes) +
+                               " bytes can hold");
+  }
+
+ private:
+  template <class T>
+  static void read(std::string_view value, T& to) {
+    if (value.size() >= sizeof to) std::memcpy(&to, value.data(), sizeof to);
+  }
+  struct Tile {
+    uint32_t x = 0, y = 0;
+  };
+  std::array<int32_t, 4> window_{0, 0, 0, 0};  ///< least x and y, largest
+  Tile tile_;
+  int32_t stated_ = 0;
+  int lines_ = 1;
+};
+
 /// Fit to be shown.
 bool plain(const std::string& name) {
   return name.size() < 64 && std::all_of(name.begin(), name.end(), [](char c) { return c > 32 && c < 127; });
@@ -61,6 +104,7 @@ void check_attributes(std::string_view bytes) {
   uint32_t flags = 0;
   if (bytes.size() >= kHead) std::memcpy(&flags, bytes.data() + 4, sizeof flags);
   do {
+    Blocks blocks;
     for (std::string name = text(); !name.empty(); name = text()) {
       text();  // its type
       int32_t size = -1;
@@ -69,8 +113,10 @@ void check_attributes(std::string_view bytes) {
       if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - at)
         throw std::runtime_error(plain(name) ? "attribute '" + name + "' reaches beyond the file"
                                              : "an attribute reaches beyond the file");
+      blocks.see(name, bytes.substr(at, static_cast<std::size_t>(size)));
       at += static_cast<std::size_t>(size);
     }
+    blocks.check(bytes.size());
   } while ((flags & kManyParts) != 0 && at < bytes.size() && bytes[at] != '\0');
 }
 

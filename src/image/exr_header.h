@@ -20,7 +20,8 @@ std::string one_line(const char* what);
 /// Sorts R, G, B, A in this order inside a layer (OpenEXR sorts by letter: A, B, G, R), everything else as in
 /// the file.
 std::tuple<std::string, int, std::string> channel_key(const std::string& name);
-/// Before OpenEXR reads a header: it reserves as much for an attribute as that claims to have.
+/// Before OpenEXR reads a header: it reserves as much for an attribute as that claims to have, and a table of
+/// blocks of up to 8 MB before it looks whether the file has one.
 /// @param bytes  of the file @throws std::runtime_error
 void check_attributes(std::string_view bytes);
 /// Refuses what cannot be true: a small file that claims a picture of many gigabytes.

@@ -183,6 +183,26 @@ TEST_F(Exr, AttributesEndWithinTheFile) {
   }
 }
 
+// OpenEXR would clear a table of 8 MB first, or ask for one of gigabytes.
+TEST_F(Exr, BlocksHaveTheirPlaceInTheFile) {
+  write_exr(folder / "small.exr", ramp(40, 40, {"R", "G", "B"}), PixelType::half);
+  const std::string whole = read_file(folder / "small.exr");
+  const std::size_t window = whole.find("dataWindow") + sizeof "dataWindow" + sizeof "box2i" + 4;
+  for (const int32_t lines : {100000, 16000000, 0x7fffffff}) {
+    std::string bytes = whole;
+    const int32_t bottom = lines - 1;
+    std::memcpy(&bytes[window + 12], &bottom, 4);
+    try {
+      decode_exr(bytes, "small.exr");
+      FAIL();
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find("claims 40 x " + std::to_string(lines) + " pixels in more blocks"),
+                std::string::npos)
+          << e.what();
+    }
+  }
+}
+
 TEST(ExrData, EveryFileOfTheCollectionsIsRead) {
   const fs::path path = test_data() / "hdr";
   SCONCE_NEEDS_DATA(path);
