@@ -8,7 +8,8 @@
 
 namespace sconce::robustness {
 
-inline constexpr int kSeconds = 10, kGigabytes = 4;
+/// Seconds of computing, which other programs on the machine do not change; by the clock, for what waits.
+inline constexpr int kSeconds = 10, kAsleep = 100, kGigabytes = 4;
 
 /// The sconce that is tried.
 struct Program {

@@ -48,7 +48,7 @@ constexpr const char* kHead =
     R"(# Robustness
 
 Written by `make robustness`; not edited by hand. Every file of other people's test suites through `sconce info`; what is read
-is baked with 64 x 64 texels, and pictures go through `sconce diff`, too. Each run may take 10 s and 4 GB. A **finding** is a
+is baked with 64 x 64 texels, and pictures go through `sconce diff`, too. Each run may take 10 s of computing and 4 GB. A **finding** is a
 crash, a hang, too much memory, a sanitizer's report, or a refusal that is not one line naming the file; there should be none. The
 same files are a test.
 )";
@@ -57,7 +57,8 @@ same files are a test.
 std::string fuzzing() {
   const std::filesystem::path root = SCONCE_SOURCE_DIR, table = root / "bench/results/fuzz.md";
   if (!std::filesystem::exists(table)) return {};
-  return "\n## Made-up input\n\nlibFuzzer, with address and undefined behaviour sanitizers, on every reader (`make "
+  return "\n## Made-up input\n\nlibFuzzer, with address and undefined behaviour sanitizers, on every reader "
+         "(`make "
          "fuzz`; tests/fuzz). "
          "Reached: edges of the program.\n\n" +
          read_file(table) + "\n" + read_file(root / "tests/fuzz/found.md");
