@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "receive/mesh_graph.h"
+#include "receive/seam_difference.h"
 #include "receive/test_scene.h"
 
 namespace sconce {
@@ -33,47 +33,6 @@ std::vector<Image> layer(TestScene& s, float noise, const std::function<float(co
   return pages;
 }
 
-float look_up(const Image& image, Vec2 at) {
-  const Vec2 low = glm::floor(at - 0.5f), part = at - 0.5f - low;
-  float sum = 0;
-  for (int c = 0; c < 4; ++c) {
-    const int x = std::clamp(static_cast<int>(low.x) + (c & 1), 0, image.width - 1),
-              y = std::clamp(static_cast<int>(low.y) + (c >> 1), 0, image.height - 1);
-    sum += ((c & 1) != 0 ? part.x : 1 - part.x) * ((c >> 1) != 0 ? part.y : 1 - part.y) * image.at(x, y)[0];
-  }
-  return sum;
-}
-
-struct Difference {
-  double rms = 0, largest = 0;
-  int places = 0;
-};
-/// Between both sides, along all edges whose texels part, of fronts.
-Difference across_seams(const TestScene& s, const std::vector<Image>& pages) {
-  const MeshGraph graph = make_mesh_graph(s.world);
-  Difference found;
-  for (uint32_t h = 0; h < graph.mates.size(); ++h) {
-    const uint32_t mate = graph.mates[h];
-    if (mate == MeshGraph::kNone || mate < h || graph.turn[h] < 0.999f) continue;
-    const TexelTriangle &a = s.atlas.front[h / 3], &b = s.atlas.front[mate / 3];
-    const Vec2 a0 = a.uv[h % 3], a1 = a.uv[next_corner(h % 3)], b0 = b.uv[next_corner(mate % 3)],
-               b1 = b.uv[mate % 3];
-    if (a.page == b.page && glm::distance(a0, b0) < 1e-3f && glm::distance(a1, b1) < 1e-3f) continue;
-    const int steps = static_cast<int>(4 * glm::distance(a0, a1)) + 1;
-    for (int k = 0; k < steps; ++k) {
-      const float t = (static_cast<float>(k) + 0.5f) / static_cast<float>(steps);
-      const auto d =
-          static_cast<double>(look_up(pages[static_cast<std::size_t>(a.page)], glm::mix(a0, a1, t)) -
-                              look_up(pages[static_cast<std::size_t>(b.page)], glm::mix(b0, b1, t)));
-      found.rms += d * d;
-      found.largest = std::max(found.largest, std::abs(d));
-      ++found.places;
-    }
-  }
-  found.rms = std::sqrt(found.rms / std::max(found.places, 1));
-  return found;
-}
-
 float falls(const Vec3& p) {
   return 100 * (1 + 0.5f * p.x + 0.3f * p.y * p.y - 0.4f * p.z);
 }
@@ -98,10 +57,10 @@ TEST(Seams, BothSidesOfASmoothSeamShowTheSame) {
   const Seams seams(s.world, *s.tracer, s.atlas);
   for (const float noise : {0.0f, 0.1f}) {
     std::vector<Image> pages = layer(s, noise, falls);
-    const Difference before = across_seams(s, pages);
+    const SeamDifference before = across_seams(s.world, s.atlas, pages);
     seams.close(pages);
-    const Difference after = across_seams(s, pages);
-    ASSERT_GT(before.places, 200);
+    const SeamDifference after = across_seams(s.world, s.atlas, pages);
+    ASSERT_GT(before.places.size(), 200u);
     EXPECT_LT(after.rms, before.rms / 12) << noise << ": " << before.rms << " lx";
     EXPECT_LT(after.largest, before.largest / 2) << noise << ": " << before.largest << " lx";
     RecordProperty(noise > 0 ? "noisy" : "smooth",
