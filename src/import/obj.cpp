@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ: v, vt, vn, f, g, o, usemtl, mtllib (Wavefront, Advanced Visualizer, appendix B). Points, lines and
 // smoothing groups say nothing about light; free-form surfaces are named.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -22,20 +23,22 @@ namespace {
 
 constexpr std::size_t kBetweenChecks = 100000;  // statements
 
+/// A word for a message, where it is fit to be shown.
+std::string shown(std::string_view word) {
+  const bool plain =
+      word.size() < 40 && std::all_of(word.begin(), word.end(), [](char c) { return c > 32 && c < 127; });
+  return plain ? "'" + std::string(word) + "'" : "what stands there";
+}
+
 class Reader {
  public:
   Reader(const fs::path& path, const Progress& progress) : path_(path), progress_(progress) {}
 
   std::vector<ObjParts::Part> read() {
-    ObjText text(read_file(path_));
-    std::size_t n = 0;
-    for (ObjStatement s; text.next(s);) {
-      line_ = s.line;
-      statement(s.keyword, s.rest);
-      if (++n % kBetweenChecks != 0) continue;
-      progress_.check();
-      progress_.at("lines", text.done(), text.size());
-    }
+    // Faces may stand before what they are made of.
+    const std::string bytes = read_file(path_);
+    each(bytes, "numbers", [&](const ObjStatement& s) { collect(s.keyword, s.rest); });
+    each(bytes, "faces", [&](const ObjStatement& s) { build(s.keyword, s.rest); });
     if (free_form_) progress_.warn(path_.string() + ": free-form curves and surfaces are left out");
     return parts_.take();
   }
@@ -43,10 +46,22 @@ class Reader {
  private:
   std::string where() const { return path_.string() + ":" + std::to_string(line_); }
 
-  void statement(std::string_view keyword, std::string_view rest) {
+  template <class F>
+  void each(const std::string& bytes, std::string_view stage, const F& f) {
+    ObjText text(bytes);
+    std::size_t n = 0;
+    for (ObjStatement s; text.next(s);) {
+      line_ = s.line;
+      f(s);
+      if (++n % kBetweenChecks != 0) continue;
+      progress_.check();
+      progress_.at(stage, text.done(), text.size());
+    }
+  }
+
+  void collect(std::string_view keyword, std::string_view rest) {
     if (keyword == "v") {
-      const auto [x, y, z, w] = numbers<4>(rest, 3);
-      // A fourth number is a weight of free-form surfaces, or the first of a colour.
+      const auto [x, y, z] = numbers<3>(rest, 3);  // weights and colours may follow
       parts_.positions.emplace_back(x, y, z);
     } else if (keyword == "vt") {
       const auto [u, v] = numbers<2>(rest, 1);
@@ -54,6 +69,16 @@ class Reader {
     } else if (keyword == "vn") {
       const auto [x, y, z] = numbers<3>(rest, 3);
       parts_.normals.emplace_back(x, y, z);
+    }
+  }
+
+  void build(std::string_view keyword, std::string_view rest) {
+    if (keyword == "v") {
+      ++before_.position;
+    } else if (keyword == "vt") {
+      ++before_.texcoord;
+    } else if (keyword == "vn") {
+      ++before_.normal;
     } else if (keyword == "f") {
       face(rest);
     } else if (keyword == "g" || keyword == "o") {
@@ -85,7 +110,7 @@ class Reader {
     const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const std::string_view left(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     if (code == std::errc::invalid_argument || (!left.empty() && left.front() != '#' && left.front() != '('))
-      throw Error(where(), "'" + std::string(word) + "' is no number");
+      throw Error(where(), shown(word) + " is no number");
     const bool finite = code == std::errc() && left.empty() && std::abs(value) < 1e30;
     return finite ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
   }
@@ -95,45 +120,48 @@ class Reader {
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
       const std::string_view whole = word;
       ObjCorner corner;
-      const std::pair<int64_t*, std::size_t> parts[] = {{&corner.position, parts_.positions.size()},
-                                                        {&corner.texcoord, parts_.texcoords.size()},
-                                                        {&corner.normal, parts_.normals.size()}};
+      struct {
+        int64_t* to;
+        std::size_t all;
+        int64_t before;
+      } const parts[] = {{&corner.position, parts_.positions.size(), before_.position},
+                         {&corner.texcoord, parts_.texcoords.size(), before_.texcoord},
+                         {&corner.normal, parts_.normals.size(), before_.normal}};
       bool more = true;
-      for (const auto& [to, count] : parts) {
+      for (const auto& [to, all, before] : parts) {
         if (!more) break;
         const std::size_t slash = word.find('/');
         const std::string_view part = word.substr(0, slash);
         const bool is_place = to == &corner.position;
-        if (!part.empty() && (is_place || count > 0))  // others may be asked for where there are none
-          *to = index(part, count, whole);
+        if (!part.empty() && (is_place || all > 0))  // others may be asked for where there are none
+          *to = index(part, static_cast<int64_t>(all), before, whole);
         more = slash != std::string_view::npos;
         if (more) word.remove_prefix(slash + 1);
       }
       if (more || corner.position < 0)
-        throw Error(where(), "'" + std::string(whole) + "' is no corner of a face",
-                    "v, v/vt, v//vn, v/vt/vn");
+        throw Error(where(), shown(whole) + " is no corner of a face", "v, v/vt, v//vn, v/vt/vn");
       corners_.push_back(corner);
     }
     if (corners_.size() >= 3) parts_.add_face(corners_);
   }
 
-  /// From 1, or from the end where it is negative.
-  int64_t index(std::string_view part, std::size_t count, std::string_view whole) const {
+  /// From 1, or backwards from the face where it is negative.
+  int64_t index(std::string_view part, int64_t all, int64_t before, std::string_view whole) const {
     int64_t i = 0;
     const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), i);
     if (code != std::errc() || end != part.data() + part.size())
-      throw Error(where(), "'" + std::string(whole) + "' is no corner of a face", "v, v/vt, v//vn, v/vt/vn");
-    const auto n = static_cast<int64_t>(count);
-    if (i == 0 || i > n || i < -n)
+      throw Error(where(), shown(whole) + " is no corner of a face", "v, v/vt, v//vn, v/vt/vn");
+    if (i == 0 || i > all || i < -before)
       throw Error(where(), "index " + std::to_string(i) + " is out of range",
-                  n == 0 ? "v before it" : "1 to " + std::to_string(n) + ", or negative");
-    return i > 0 ? i - 1 : n + i;
+                  i < 0 ? "-" + std::to_string(before) + " to -1" : "1 to " + std::to_string(all));
+    return i > 0 ? i - 1 : before + i;
   }
 
   const fs::path& path_;
   const Progress& progress_;
   ObjParts parts_;
   std::vector<ObjCorner> corners_;
+  ObjCorner before_{0, 0, 0};  ///< so many stand before the face
   std::size_t line_ = 0;
   bool free_form_ = false;
 };

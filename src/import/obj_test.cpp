@@ -113,6 +113,7 @@ TEST(Obj, IndicesContinuationsAndLineEnds) {
   for (const char* face : {"f 1 2 3\n", "f -4 -3 -2", "f 1/ 2/ 3/ # that is all\n", "f 1 \\\n 2 3\n",
                            "f 1 \\\r\n 2 3\r\n", "\tf\t1\t2\t3 \r", "f 1//\t2// 3//\nf 1 2\nl 1 2 3\np 1\n"})
     EXPECT_EQ(as_written(obj(box + face)), wanted) << face;
+  EXPECT_EQ(as_written(obj("f 1 2 3\n" + box)), wanted) << "what it is made of may follow";
   EXPECT_EQ(obj(box + "f 1 2 3\nf 1 3 4\n").meshes.at(0).positions.size(), 4u) << "corners are shared";
   EXPECT_EQ(
       obj("\xef\xbb\xbf" + box + "v 0 1 0 0.5\nf 1 2 3\nf 1 3 5\nf 1 3 4\n").meshes.at(0).positions.size(),
@@ -141,13 +142,15 @@ TEST(Obj, WhatIsWrongIsNamedWithItsLine) {
     const std::string error = error_of([&] { obj("# one\nv 0 0 0\nv 1 0 \\\n0\nv 0 1 0\n" + text); });
     return error.substr(error.find("x.obj") + 5);
   };
-  EXPECT_EQ(said("f 1 2 4"), ":6: index 4 is out of range (allowed: 1 to 3, or negative)");
-  EXPECT_EQ(said("\nf 1 2 0"), ":7: index 0 is out of range (allowed: 1 to 3, or negative)");
-  EXPECT_EQ(said("vn 0 0 1\nf 1//1 2//2 3"), ":7: index 2 is out of range (allowed: 1 to 1, or negative)");
+  EXPECT_EQ(said("f 1 2 4"), ":6: index 4 is out of range (allowed: 1 to 3)");
+  EXPECT_EQ(said("\nf 1 2 0"), ":7: index 0 is out of range (allowed: 1 to 3)");
+  EXPECT_EQ(said("vn 0 0 1\nf 1//1 2//2 3"), ":7: index 2 is out of range (allowed: 1 to 1)");
+  EXPECT_EQ(said("f 1 2 -4"), ":6: index -4 is out of range (allowed: -3 to -1)");
   EXPECT_EQ(said("f 1 2 x"), ":6: 'x' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
   EXPECT_EQ(said("f 1 2 //"), ":6: '//' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
   EXPECT_EQ(said("f 1 2 3///"), ":6: '3///' is no corner of a face (allowed: v, v/vt, v//vn, v/vt/vn)");
   EXPECT_EQ(said("v 0,5 0 0"), ":6: '0,5' is no number");
+  EXPECT_EQ(said("v 0 0 \xf9\x1b"), ":6: what stands there is no number");
   EXPECT_EQ(said("v 0 0"), ":6: has 2 numbers (allowed: 3)");
   EXPECT_EQ(said("f 1 2"), ": has no faces");
 }
