@@ -2,6 +2,8 @@
 // Things that move: the example's viewer, and objects of packages put elsewhere.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "core/files.h"
 #include "image/io.h"
 #include "process.h"
@@ -54,16 +56,11 @@ TEST(MovingObjects, PicturesSayWhenBouncesAreOld) {
 /// A floor and a ceiling lamp's room with its block at two places, baked for each.
 class PutElsewhere : public testing::Test {
  protected:
-  static constexpr float kX = -0.9f, kZ = 0.2f;  // metres that the block goes
+  static inline const Vec3 kThere = test::kBlock + Vec3(-0.9f, 0, 0.2f);
+  static constexpr float kTurn = 30;  // degrees
   TemporaryFolder folder;
   std::string file(const std::string& name) const { return (folder / name).string(); }
 
-  static Scene moved_room() {
-    Scene scene = test::two_lamp_room();
-    for (Instance& instance : scene.instances)
-      if (instance.name == "block") instance.transform[3] += glm::vec4(kX, 0, kZ, 0);
-    return scene;
-  }
   void bake(const std::string& name, const Scene& scene) {
     write_file(folder / (name + ".glb"), write_glb(scene, "test"));
     const test::Outcome made =
@@ -80,8 +77,8 @@ class PutElsewhere : public testing::Test {
 // The picture is that of the scene baked anew with the block there; the floor that it left is lit, too.
 TEST_F(PutElsewhere, PicturesAreThoseOfTheSceneBakedThere) {
   bake("here", test::two_lamp_room());
-  bake("there", moved_room());
-  const std::string middle = std::to_string(0.35f + kX) + ",0.4," + std::to_string(-0.35f + kZ);
+  bake("there", test::with_block_at(kThere, kTurn));
+  const std::string middle = fmt::format("{},{},{},{}", kThere.x, kThere.y, kThere.z, kTurn);
   for (const std::string mix : {"right=on", "left=0.5"}) {
     for (const auto& [words, output] :
          {std::pair{std::vector<std::string>{"render", file("there.sconce")}, "truth.exr"},
@@ -101,6 +98,28 @@ TEST_F(PutElsewhere, PicturesAreThoseOfTheSceneBakedThere) {
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("did you mean 'block'"), std::string::npos) << unknown.err;
   EXPECT_EQ(picture({"relight", file("here.sconce"), "--object", "block"}, "none.exr").code, 2);
+}
+
+// The block is square: turned by a quarter it looks as it did, on other faces. Half a quarter is something
+// else.
+TEST_F(PutElsewhere, AQuarterTurnOfASquareBlockChangesNothing) {
+  bake("room", test::two_lamp_room());
+  const std::string home = fmt::format("block={},{},{}", test::kBlock.x, test::kBlock.y, test::kBlock.z);
+  ASSERT_EQ(picture({"render", file("room.sconce"), "right=on"}, "home.exr").code, 0);
+  for (const char* angle : {"90", "-45"})
+    ASSERT_EQ(picture({"relight", file("room.sconce"), "right=on", "--object", home + "," + angle},
+                      std::string(angle) + ".exr")
+                  .code,
+              0);
+  const Image still = read_image(file("home.exr"));
+  const double quarter = test::error_of(still, read_image(file("90.exr"))),
+               half = test::error_of(still, read_image(file("-45.exr")));
+  EXPECT_LE(quarter, 0.025);
+  EXPECT_GT(half, 2 * quarter);
+  const test::Outcome bad =
+      picture({"relight", file("room.sconce"), "--object", home + ",round"}, "none.exr");
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("'round' is no angle"), std::string::npos) << bad.err;
 }
 
 }  // namespace

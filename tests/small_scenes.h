@@ -2,6 +2,8 @@
 // Scenes that tests make themselves.
 #pragma once
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "package/glb.h"
 #include "scene/shapes.h"
 
@@ -38,6 +40,19 @@ inline Scene two_lamp_room() {
   camera.yfov = 1.3f;
   camera.aspect = 1;
   scene.cameras.push_back(camera);
+  return scene;
+}
+
+inline const Vec3 kBlock{0.35f, 0.4f, -0.35f};  ///< the block's middle
+
+/// The same with its block elsewhere. @param degrees  it is turned, from above
+inline Scene with_block_at(const Vec3& middle, float degrees) {
+  Scene scene = two_lamp_room();
+  for (Instance& instance : scene.instances)
+    if (instance.name == "block")
+      instance.transform = glm::translate(Mat4(1), middle) *
+                           glm::rotate(Mat4(1), glm::radians(degrees), Vec3(0, 1, 0)) *
+                           glm::translate(Mat4(1), -kBlock) * instance.transform;
   return scene;
 }
 

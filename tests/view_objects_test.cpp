@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects moved in the window: shadows follow at once, bounces when the operator has.
+#include <fmt/format.h>
+
 #include "core/test_data.h"
 #include "view_window.h"
 
@@ -8,14 +10,7 @@ namespace fs = std::filesystem;
 namespace sconce {
 namespace {
 
-constexpr float kX = -0.9f, kZ = 0.2f;  // metres that the block goes
-
-Scene moved_room() {
-  Scene scene = test::two_lamp_room();
-  for (Instance& instance : scene.instances)
-    if (instance.name == "block") instance.transform[3] += glm::vec4(kX, 0, kZ, 0);
-  return scene;
-}
+const Vec3 kThere = test::kBlock + Vec3(-0.9f, 0, 0.2f);
 
 class ViewObjects : public ViewTest {
  protected:
@@ -27,15 +22,15 @@ class ViewObjects : public ViewTest {
   }
 };
 
-// The block is dragged by a hand; what is shown at rest is the scene baked with the block there. Before its
-// bounces have followed the window says so.
+// The block is dragged by a hand and turned by a key; what is shown at rest is the scene baked with the block
+// there. Before its bounces have followed the window says so.
 TEST_F(ViewObjects, AnObjectIsPutElsewhereAndItsLightFollows) {
   bake_room("x", test::two_lamp_room());
-  bake_room("there", moved_room());
-  const std::string place = std::to_string(0.35f + kX) + ",0.4," + std::to_string(-0.35f + kZ);
+  bake_room("there", test::with_block_at(kThere, 30));
+  const std::string place = fmt::format("{},{},{}", kThere.x, kThere.y, kThere.z);
   const auto outcome =
       view("ev100 3\nset right=0.5\nsettle\npicture " + path("home.png") + "\nobject block " + place +
-           "\nframes 3\nobjects " + path("early.txt") + "\nscreenshot " + path("early-all.png") +
+           ",15\nkey r\nframes 3\nobjects " + path("early.txt") + "\nscreenshot " + path("early-all.png") +
            "\nsettle\npicture " + path("there.png") + "\nscreenshot " + path("all.png") + "\nobjects " +
            path("objects.txt") + "\ntug x 40,0\nsettle\nobjects " + path("tugged.txt") +
            "\nkey ctrl+z\nsettle\npicture " + path("undone.png") + "\nhome\nsettle\npicture " +
@@ -57,13 +52,14 @@ TEST_F(ViewObjects, AnObjectIsPutElsewhereAndItsLightFollows) {
   if (!early.empty())
     EXPECT_NE(early.find("# bounces are those of other places"), std::string::npos) << early;
   std::size_t slots = 0, all = 0, texels = 0, all_texels = 0;
-  float x = 0, y = 0, z = 0;
+  float x = 0, y = 0, z = 0, turn = 0;
   ASSERT_EQ(std::sscanf(now.c_str(),
-                        "block=%f,%f,%f\n# bounces: %zu of %zu rows of the cloud, %zu of %zu of texels", &x,
-                        &y, &z, &slots, &all, &texels, &all_texels),
-            7)
+                        "block=%f,%f,%f,%f\n# bounces: %zu of %zu rows of the cloud, %zu of %zu of texels",
+                        &x, &y, &z, &turn, &slots, &all, &texels, &all_texels),
+            8)
       << now;
-  EXPECT_NEAR(x, 0.35f + kX, 1e-3);
+  EXPECT_NEAR(x, kThere.x, 1e-3);
+  EXPECT_NEAR(turn, 30, 1e-3);
   EXPECT_LT(slots, all);
   EXPECT_GT(slots, 0u);
   EXPECT_LE(texels, all_texels);

@@ -82,10 +82,10 @@ int run_relight(int argc, const char* const* argv) {
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
   words.declare(options);
-  options.option(
-      "--object", &objects,
-      "NAME=X,Y,Z: the middle of an object (a node of the scene) goes there, its shadows and bounces "
-      "follow; needs no operator in the package; may be given several times");
+  options.option("--object", &objects,
+                 "NAME=X,Y,Z[,DEGREES]: the middle of an object (a node of the scene) goes there, turned "
+                 "as seen from above, its shadows and bounces follow; needs no operator in the package; may "
+                 "be given several times");
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option(
@@ -125,7 +125,7 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    std::vector<std::pair<std::string, Vec3>> places;
+    std::vector<ObjectPlace> places;
     for (const std::string& text : objects) places.push_back(parse_object(text));
     const WantedLamps wanted = words.parse(preset, progress, places.empty());
     const Package package = settings.open(input);

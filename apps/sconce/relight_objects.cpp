@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "relight_objects.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "core/text.h"
 #include "picture_options.h"
 
 namespace sconce::app {
@@ -9,27 +12,40 @@ namespace sconce::app {
 namespace {
 
 constexpr uint32_t kRays = 32;  // to each lamp from each texel
+constexpr double kMostDegrees = 360;
 constexpr const char* kOption = "option '--object'";
 
 /// Before an operator is made for them. @throws UsageError
-ObjectMoves moves_to(const View& home, const std::vector<std::pair<std::string, Vec3>>& places) {
+ObjectMoves moves_to(const View& home, const std::vector<ObjectPlace>& places) {
   ObjectMoves moves;
-  for (const auto& [name, to] : places) moves[name] = to - middle_of_object(home, name, kOption);
+  for (const ObjectPlace& p : places)
+    moves[p.name] = {p.middle - middle_of_object(home, p.name, kOption), p.turn};
   return moves;
 }
 
 }  // namespace
 
-std::pair<std::string, Vec3> parse_object(const std::string& text) {
+ObjectPlace parse_object(const std::string& text) {
   const std::size_t equals = text.rfind('=');
+  const char* form = "NAME=X,Y,Z or NAME=X,Y,Z,DEGREES";
   if (equals == std::string::npos || equals == 0)
-    throw UsageError(kOption, "'" + text + "' is not understood", "NAME=X,Y,Z");
-  return {text.substr(0, equals), parse_point(text.substr(equals + 1), "--object")};
+    throw UsageError(kOption, "'" + text + "' is not understood", form);
+  ObjectPlace place{text.substr(0, equals), {}};
+  std::string point = text.substr(equals + 1);
+  if (std::count(point.begin(), point.end(), ',') == 3) {
+    const std::size_t comma = point.rfind(',');
+    const std::optional<double> turn = parse_number(trim(point.substr(comma + 1)));
+    if (!turn || !(std::abs(*turn) <= kMostDegrees))
+      throw UsageError(kOption, "'" + point.substr(comma + 1) + "' is no angle", "-360 to 360 degrees");
+    place.turn = static_cast<float>(*turn);
+    point.resize(comma);
+  }
+  place.middle = parse_point(point, "--object");
+  return place;
 }
 
 ObjectsElsewhere::ObjectsElsewhere(const Package& package, const View& home,
-                                   const std::vector<std::pair<std::string, Vec3>>& places,
-                                   const Progress& progress)
+                                   const std::vector<ObjectPlace>& places, const Progress& progress)
     : moves_(moves_to(home, places)), objects_(package, home, progress), follower_(package, home, progress) {
   if (home.sees_normal_maps()) progress.warn("with --object surfaces are as smooth as their geometry");
   objects_.place(moves_);

@@ -7,14 +7,19 @@
 
 namespace sconce::app {
 
-/// `NAME=X,Y,Z`. @throws UsageError
-std::pair<std::string, Vec3> parse_object(const std::string& text);
+struct ObjectPlace {
+  std::string name;
+  Vec3 middle;     ///< m
+  float turn = 0;  ///< ObjectMove
+};
+/// `NAME=X,Y,Z[,DEGREES]`. @throws UsageError
+ObjectPlace parse_object(const std::string& text);
 
 class ObjectsElsewhere {
  public:
-  /// @param places  where middles go. Package and view must outlive it. @throws UsageError, Cancelled
-  ObjectsElsewhere(const Package& package, const View& home,
-                   const std::vector<std::pair<std::string, Vec3>>& places, const Progress& progress);
+  /// Package and view must outlive it. @throws UsageError, Cancelled
+  ObjectsElsewhere(const Package& package, const View& home, const std::vector<ObjectPlace>& places,
+                   const Progress& progress);
   const View& view() const { return objects_.view(); }
   const Operator& transfer() const { return *bounces_.op; }
   void add_to(std::vector<Image>& pages, const MixSpec& mix) const {

@@ -113,7 +113,7 @@ bool Driver::object(const Action& action) {
   v.choose_object(arguments[0], where);
   if (word == "object") {
     const auto to = numbers(action, 1, 3);
-    v.move_object({to[0], to[1], to[2]}, false);
+    v.move_object({to[0], to[1], to[2]}, to.size() > 3 ? to[3] : 0, false);
   }
   return frames_ = 1, true;
 }

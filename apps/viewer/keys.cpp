@@ -4,6 +4,12 @@
 
 namespace sconce::viewer {
 
+namespace {
+
+constexpr float kTurn = 15;  // degrees, of an object
+
+}  // namespace
+
 void Viewer::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
@@ -22,6 +28,8 @@ void Viewer::keys() {
   if (pressed("tab")) state_.panels = !state_.panels;
   if (pressed("l")) state_.lamps.shown = !state_.lamps.shown;
   if (pressed("h")) put_back();
+  if (pressed("r") && !state_.objects.chosen.empty())
+    move_object(object_place(), object_turn() + (io.KeyShift ? -kTurn : kTurn), false);
   if (pressed("t") && state_.lamps.chosen && state_.under && state_.under->surface)
     attempt([&] { aim_lamp(*state_.lamps.chosen, state_.under->position); });
   if (pressed("i")) state_.reading = !state_.reading;

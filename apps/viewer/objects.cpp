@@ -86,16 +86,23 @@ void Viewer::choose_object(const std::string& name, const std::string& where) {
 Vec3 Viewer::object_place() const {
   const ObjectMoves& moves = state_.session->mood().objects;
   const auto moved = moves.find(state_.objects.chosen);
-  return state_.objects.home + (moved != moves.end() ? moved->second : Vec3(0));
+  return state_.objects.home + (moved != moves.end() ? moved->second.by : Vec3(0));
 }
 
-void Viewer::move_object(const Vec3& to, bool gesture) {
+float Viewer::object_turn() const {
+  const ObjectMoves& moves = state_.session->mood().objects;
+  const auto moved = moves.find(state_.objects.chosen);
+  return moved != moves.end() ? moved->second.turn : 0;
+}
+
+void Viewer::move_object(const Vec3& to, float turn, bool gesture) {
   const Bounds& room = state_.opened->rays.world().bounds;
   const std::string& name = state_.objects.chosen;
   Mood mood = state_.session->mood();
   const Vec3 by = glm::clamp(to, room.lo, room.hi) - state_.objects.home;
-  mood.objects[name] = by;
-  if (by == Vec3(0)) mood.objects.erase(name);
+  const ObjectMove move{by, std::remainder(turn, 360.0f)};
+  mood.objects[name] = move;
+  if (move == ObjectMove()) mood.objects.erase(name);
   state_.session->change(mood, gesture ? "object " + name : "");
 }
 
@@ -108,7 +115,8 @@ bool Viewer::hold_object(Vec2 at) {
   if (!objects.drag.held) return false;
   if (ImGui::IsItemActive()) {
     if (at != objects.drag.from)
-      move_object(dragged(objects.drag.grip, objects.drag.start, lens(), objects.drag.from, at), true);
+      move_object(dragged(objects.drag.grip, objects.drag.start, lens(), objects.drag.from, at),
+                  object_turn(), true);
   } else {
     objects.drag = {};
     state_.session->end_gesture();
@@ -167,8 +175,13 @@ void Viewer::object_section() {
   if (!objects.chosen.empty()) {
     Vec3 at = object_place();
     ImGui::SetNextItemWidth(-px(80));
-    if (ImGui::DragFloat3("##place", &at.x, 0.01f, 0, 0, "%.2f m")) move_object(at, true);
+    float turn = object_turn();
+    if (ImGui::DragFloat3("##place", &at.x, 0.01f, 0, 0, "%.2f m")) move_object(at, turn, true);
     if (ImGui::IsItemDeactivatedAfterEdit()) state_.session->end_gesture();
+    ImGui::SetNextItemWidth(-px(80));
+    if (ImGui::DragFloat("##turn", &turn, 1, 0, 0, "turned by %.0f\xc2\xb0")) move_object(at, turn, true);
+    if (ImGui::IsItemDeactivatedAfterEdit()) state_.session->end_gesture();
+    tip("about the vertical through its middle; the key R by 15 degrees, Shift R back");
     ImGui::SameLine();
     if (ImGui::Button("Home", {-1, 0})) put_back();
     tip("its shadow follows at once, bounces when the operator has followed");

@@ -213,7 +213,8 @@ class Viewer {
   void choose_object(const std::string& name, const std::string& where = {});
   Vec3 object_place() const;
   /// The chosen one, as move_lamp().
-  void move_object(const Vec3& to, bool gesture);
+  float object_turn() const;
+  void move_object(const Vec3& to, float turn, bool gesture);
   bool hold_object(Vec2 at);
   void object_overlay();
   void object_section();

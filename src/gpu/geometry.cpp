@@ -71,6 +71,13 @@ void add_bends(const ShownScene& shown, std::size_t triangle, std::vector<Bend>&
   for (std::size_t k = 0; k < 3; ++k) out.push_back({tangents[k], place_in(map, world, triangle, k)});
 }
 
+std::vector<Bend> bends_of(const ShownScene& shown) {
+  std::vector<Bend> bends;
+  for (const SurfaceBatch& batch : surface_batches(shown))
+    for (const uint32_t t : batch.triangles) add_bends(shown, t, bends);
+  return bends;
+}
+
 std::vector<Vertex> vertices_of(const ShownScene& shown) {
   std::vector<Vertex> vertices;
   vertices.reserve(3 * shown.world.size());
@@ -119,14 +126,11 @@ Geometry::~Geometry() {
 }
 
 void Geometry::upload_triangles() {
-  std::vector<Bend> bends;
   GLint first = 0;
   for (const SurfaceBatch& batch : surface_batches(*shown_)) {
     const auto count = static_cast<GLsizei>(3 * batch.triangles.size());
     batches_.push_back({batch.material, batch.group, first, count});
     first += count;
-    if (normal_maps_)
-      for (const uint32_t t : batch.triangles) add_bends(*shown_, t, bends);
   }
   glCreateVertexArrays(1, &layout_);
   vertices_ = upload_attributes(vertices_of(*shown_), layout_, 0, 0, {3, 2, 2, 2, 3, 3});
@@ -134,7 +138,7 @@ void Geometry::upload_triangles() {
   glEnableVertexArrayAttrib(layout_, kNormals);
   glVertexArrayAttribFormat(layout_, kNormals, 4, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
   glVertexArrayAttribBinding(layout_, kNormals, 0);
-  if (normal_maps_) normals_ = upload_attributes(bends, layout_, 1, kNormals + 1, {4, 2});
+  if (normal_maps_) normals_ = upload_attributes(bends_of(*shown_), layout_, 1, kNormals + 1, {4, 2});
 }
 
 void Geometry::follow(const ShownScene& shown) {
@@ -142,6 +146,9 @@ void Geometry::follow(const ShownScene& shown) {
   const std::vector<Vertex> vertices = vertices_of(shown);
   glNamedBufferSubData(vertices_, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
                        vertices.data());
+  if (!normal_maps_) return;
+  const std::vector<Bend> bends = bends_of(shown);
+  glNamedBufferSubData(normals_, 0, static_cast<GLsizeiptr>(bends.size() * sizeof(Bend)), bends.data());
 }
 
 void Geometry::upload_textures(const Context& context) {

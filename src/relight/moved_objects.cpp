@@ -53,7 +53,7 @@ MovedObjects::MovedObjects(const Package& package, const View& home, const Progr
       atlas_(package_atlas(package, home)),
       texels_(all_texels(view_.traced(), atlas_, progress)),
       middles_(middles_of(texels_.receivers)),
-      by_(view_.scene().instances.size(), Vec3(0)),
+      placements_(view_.scene().instances.size()),
       lamps_at_home_(home.scene(), home.world(), home.tracer(), {}, all_groups(package)) {
   // Those that layers have no light of: the lightmap's own receivers are the others.
   const std::vector<uint32_t> baked = texel_receivers(view_.traced(), atlas_, progress).places;
@@ -63,18 +63,15 @@ MovedObjects::MovedObjects(const Package& package, const View& home, const Progr
 }
 
 void MovedObjects::place(const ObjectMoves& moves, const std::string& where) {
-  for (const auto& [name, by] : moves) middle_of_object(view_, name, where);
+  for (const auto& [name, move] : moves) middle_of_object(view_, name, where);
   boxes_.clear();
   view_.place(places_of_objects_, moves);
   for (const View* view : {&home_, static_cast<const View*>(&view_)})
-    for (const auto& [name, by] : moves)
+    for (const auto& [name, move] : moves)
       boxes_.push_back(widened(object_bounds(view->scene(), view->world(), name),
                                1e-4f * home_.world().bounds.diagonal()));
   moves_ = moves;
-  for (std::size_t i = 0; i < by_.size(); ++i) {
-    const auto move = moves.find(view_.scene().instances[i].name);
-    by_[i] = move != moves.end() ? move->second : Vec3(0);
-  }
+  placements_ = places_of_objects_.placements(view_.scene(), moves);
   lamps_.emplace(view_.scene(), view_.world(), view_.tracer(), MoreLights{}, all_groups(package_));
   find_covered();
 }
@@ -82,11 +79,13 @@ void MovedObjects::place(const ObjectMoves& moves, const std::string& where) {
 // Only below what has moved anything may have changed.
 void MovedObjects::find_covered() {
   parallel_for(covered_.size(), 256, [&](std::size_t i) {
-    const Vec3& by = by_[view_.world().instances[texels_.texels->triangle(i)].value];
-    const bool near = std::any_of(boxes_.begin(), boxes_.end(),
-                                  [&](const Bounds& box) { return inside(box, middles_[i].position + by); });
+    const Placement& to = placements_[view_.world().instances[texels_.texels->triangle(i)].value];
+    const Vec3 at = to.point(middles_[i].position);
+    const bool near =
+        std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) { return inside(box, at); });
     covered_[i] = covered_at_home_[i];
-    if (near && (covered_at_home_[i] != 0 || by == Vec3(0))) covered_[i] = texels_.texels->covered(i) ? 1 : 0;
+    if (near && (covered_at_home_[i] != 0 || to == Placement()))
+      covered_[i] = texels_.texels->covered(i) ? 1 : 0;
   });
 }
 
@@ -101,20 +100,17 @@ std::vector<Rgb> MovedObjects::direct(uint32_t rays, const Progress& progress) c
     std::vector<Rgb> now(groups), before(groups);
     for (std::size_t i = kBlock * block; i < std::min(count, kBlock * (block + 1)); ++i) {
       if (covered_[i] != 0) continue;
-      const Vec3& by = by_[view_.world().instances[texels_.texels->triangle(i)].value];
+      const Placement& to = placements_[view_.world().instances[texels_.texels->triangle(i)].value];
       const uint32_t stream = mix32(kStream, places()[i]);
       const std::span<const Bounds> boxes =
           covered_at_home_[i] != 0 ? std::span(&everywhere, 1) : std::span<const Bounds>(boxes_);
-      const auto look = [&](SurfacePoint at, uint32_t r) {
+      const auto look = [&](const SurfacePoint& at, uint32_t r) {
         lamps_->add_light_through(boxes, at, stream, r, now);
-        at.position -= by;
-        if (covered_at_home_[i] == 0) lamps_at_home_.add_light_through(boxes, at, stream, r, before);
+        if (covered_at_home_[i] == 0) lamps_at_home_.add_light_through(boxes, to.home(at), stream, r, before);
       };
       std::fill(now.begin(), now.end(), Rgb()), std::fill(before.begin(), before.end(), Rgb());
       if (rays == 1) {
-        SurfacePoint at = middles_[i];
-        at.position += by;
-        look(at, 0);
+        look(to.there(middles_[i]), 0);
       } else {
         const Footprint texel = texels_.receivers.source.footprint(i);
         for (uint32_t r = 0; r < rays; ++r) look(texel.sample(sobol_pair(r, 0, stream)), r);

@@ -55,7 +55,7 @@ class MovedObjects {
   std::vector<SurfacePoint> middles_;               ///< per receiver, at home
   std::vector<uint8_t> covered_at_home_, covered_;  ///< per receiver
   std::vector<Bounds> boxes_;                       ///< around what moved, at home and now
-  std::vector<Vec3> by_;                            ///< per instance
+  std::vector<Placement> placements_;               ///< per instance
   ObjectMoves moves_;
   MovedLamps lamps_at_home_;
   std::optional<MovedLamps> lamps_;

@@ -54,9 +54,10 @@ std::vector<Image> ObjectMover::pages(std::vector<Image> pages, const MixSpec& m
 
 std::vector<std::string> object_options(const ObjectMover& mover) {
   std::vector<std::string> out;
-  for (const auto& [name, by] : mover.moves()) {
-    const Vec3 at = middle_of_object(mover.view(), name, {});
+  for (const auto& [name, move] : mover.moves()) {
+    const Vec3 at = middle_of_object(mover.opened().rays, name, {}) + move.by;
     out.push_back(fmt::format("{}={:.4f},{:.4f},{:.4f}", name, at.x, at.y, at.z));
+    if (move.turn != 0) out.back() += fmt::format(",{:g}", move.turn);
   }
   if (mover.behind())
     out.emplace_back("# bounces are those of other places");

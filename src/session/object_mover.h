@@ -59,7 +59,7 @@ class ObjectMover {
   std::vector<Rgb> nothing_, home_;  ///< bounces before there are any, and with objects at home
 };
 
-/// `NAME=X,Y,Z` of each, as `sconce relight --object` takes them; and how far the bounces are.
+/// `NAME=X,Y,Z[,DEGREES]` of each, as `sconce relight --object` takes them; and how far the bounces are.
 std::vector<std::string> object_options(const ObjectMover& mover);
 
 }  // namespace sconce
