@@ -150,11 +150,9 @@ void run(const std::string& path) {
 
 int main(int argc, char** argv) {
   try {
-    std::vector<std::string> scenes(argv + 1, argv + argc);
-    if (scenes.empty())
-      for (const char* name : {"cornell-two-lights", "modern-hall", "luxcore-kitchen"})
-        scenes.push_back(setting("SCONCE_TEST_DATA", "../shared/data") + "/glb/" + name + ".glb");
-    for (const std::string& scene : scenes) run(scene);
+    for (const std::string& scene :
+         scenes_of(argc, argv, {"cornell-two-lights", "modern-hall", "luxcore-kitchen"}))
+      run(scene);
   } catch (const std::exception& error) {
     fmt::print(stderr, "denoise: {}\n", error.what());
     return 1;

@@ -83,10 +83,7 @@ void run(const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   try {
-    std::vector<std::string> scenes(argv + 1, argv + argc);
-    if (scenes.empty())
-      for (const char* name : {"modern-hall", "contemporary-bathroom"})
-        scenes.push_back(setting("SCONCE_TEST_DATA", "../shared/data") + "/glb/" + name + ".glb");
+    const auto scenes = scenes_of(argc, argv, {"modern-hall", "contemporary-bathroom"});
     fmt::print(
         "Difference between both sides of smooth seams that nothing stands on, in percent of the mean "
         "illuminance; four places per texel of seam.\n\n"

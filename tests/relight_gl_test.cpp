@@ -111,6 +111,17 @@ class DirectLight : public testing::Test {
     EXPECT_GE(static_cast<double>(alike), 0.995 * static_cast<double>(compared)) << "of " << compared;
   }
 
+  /// The more small lamps the lamps of the last by_rays() are drawn as, the nearer.
+  void expect_nearer(const Image& rays) {
+    double before = 1;
+    for (const int patches : {1, 4, 16}) {
+      const double error = error_of(rays, by_opengl(same_lamps(patches)));
+      EXPECT_LT(error, before) << patches;
+      before = error;
+    }
+    EXPECT_LT(before, 0.04);
+  }
+
   static constexpr int kSide = 1024;
   const Package package_;
   const View view_;
@@ -165,25 +176,11 @@ TEST_F(DirectLight, AMeasuredLampAsItsRays) {
 TEST_F(DirectLight, ManyPointsAreAnOpening) {
   MoreLights panel = parse_lights("area,size=0.6,0.2,position=0.2,1.9,0.1,lumens=200", "test");
   luminaires_ = panel.luminaires;
-  const Image rays = by_rays(panel.lights, {}, 64);
-  double before = 1;
-  for (const int patches : {1, 4, 16}) {
-    const double error = error_of(rays, by_opengl(same_lamps(patches)));
-    EXPECT_LT(error, before) << patches;
-    before = error;
-  }
-  EXPECT_LT(before, 0.04);
+  expect_nearer(by_rays(panel.lights, {}, 64));
 }
 
 TEST_F(DirectLight, ManyPatchesAreAnAreaLamp) {
-  const Image rays = by_rays({}, {{Id<LightGroup>(0), Rgb(1)}}, 64);
-  double before = 1;
-  for (const int patches : {1, 4, 16}) {
-    const double error = error_of(rays, by_opengl(same_lamps(patches)));
-    EXPECT_LT(error, before) << patches;
-    before = error;
-  }
-  EXPECT_LT(before, 0.04);
+  expect_nearer(by_rays({}, {{Id<LightGroup>(0), Rgb(1)}}, 64));
 }
 
 gpu::LampShader own(const std::string& text, const Vec3& position = Vec3(0, 1.5f, 0)) {

@@ -15,4 +15,11 @@ inline std::optional<std::size_t> first_not_finite(std::span<const float> values
   return std::nullopt;
 }
 
+/// Whether no value is negative, infinite or not a number.
+inline bool all_light(std::span<const float> values) {
+  for (const float v : values)
+    if (!(v >= 0 && std::isfinite(v))) return false;
+  return true;
+}
+
 }  // namespace sconce

@@ -29,12 +29,15 @@ constexpr std::string_view kLuminaire =
 constexpr float kWidestMap = 120 * kPi / 180;  // wider cones take cubes
 constexpr uint32_t kPatchStream = 0x70617463u;
 
-Mat4 looking_along(const Vec3& position, const Vec3& axis) {
-  const Frame frame(-axis);
-  Mat4 out(1.0f);
-  out[0] = glm::vec4(frame.x, 0), out[1] = glm::vec4(frame.y, 0), out[2] = glm::vec4(frame.z, 0);
+Mat4 placed(const Vec3& position, const Mat3& to_world) {
+  Mat4 out(to_world);
   out[3] = glm::vec4(position, 1);
   return out;
+}
+
+Mat4 looking_along(const Vec3& position, const Vec3& axis) {
+  const Frame frame(-axis);
+  return placed(position, Mat3(frame.x, frame.y, frame.z));
 }
 
 float degrees(float cosine) {
@@ -85,9 +88,8 @@ struct Maker {
     out.push_back(std::move(made));
   }
   void operator()(const ProjectorLamp& p) const {
-    LampShader made =
-        shader(lamp(), kProjector, looking_along(p.position, -p.to_world[2]), weight * p.intensity);
-    for (int i = 0; i < 3; ++i) made.frame[i] = glm::vec4(p.to_world[i], 0);  // which way is up counts
+    // Which way is up counts.
+    LampShader made = shader(lamp(), kProjector, placed(p.position, p.to_world), weight * p.intensity);
     made.uniforms = {{"slide", {}, {}, p.slide},
                      {"fov", {2 * std::atan(p.half.y) * 180 / kPi}},
                      {"aspect", {p.half.x / p.half.y}}};
@@ -128,10 +130,8 @@ struct Maker {
                  stream = mix32(kPatchStream, static_cast<uint32_t>(number));
       const EmittedLight from =
           lamps.emit(number, sobol_pair(index, 0, stream), sobol_pair(index, 1, stream));
-      Mat4 frame(1.0f);
-      for (int k = 0; k < 3; ++k) frame[k] = glm::vec4(l.to_world[k], 0);
-      frame[3] = glm::vec4(from.position, 1);
-      out.push_back(shader(lamp(), kLuminaire, frame, weight * l.scale / static_cast<float>(points)));
+      out.push_back(shader(lamp(), kLuminaire, placed(from.position, l.to_world),
+                           weight * l.scale / static_cast<float>(points)));
       out.back().uniforms = {{"table", {}, {}, table}};
       out.back().side = points == 1 ? side : std::max(64, side / 4);
     }

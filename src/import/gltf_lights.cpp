@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/finite.h"
 #include "import/gltf_parts.h"
 
 namespace sconce {
@@ -34,9 +35,8 @@ ProjectorLight projector(const GltfSource& source, const tinygltf::Value& v, con
     throw Error(source.at(place + ".bufferView"), "does not hold as many pixels as the slide has");
   Image slide = Image::rgb(static_cast<int>(width), static_cast<int>(height));
   std::memcpy(slide.data.data(), bytes.data(), bytes.size());
-  for (const float value : slide.data)
-    if (!(value >= 0 && std::isfinite(value)))
-      throw Error(source.at(place + ".bufferView"), "has pixels that are negative or no numbers");
+  if (!all_light(slide.data))
+    throw Error(source.at(place + ".bufferView"), "has pixels that are negative or no numbers");
   return {std::make_shared<Image>(std::move(slide)), static_cast<float>(number("yfov")),
           static_cast<float>(number("aspect"))};
 }

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "core/finite.h"
 #include "image/io.h"
 #include "import/side_parts.h"
 
@@ -36,8 +37,7 @@ Image read_slide(const SideContext& context, const SideTable& table) {
   } catch (const Error& e) {
     table.fail("file", e.what(), "a .png, .jpg, .hdr or .exr picture");
   }
-  for (const float v : slide.data)
-    if (!(v >= 0 && std::isfinite(v))) table.fail("file", "has pixels that are negative or no numbers");
+  if (!all_light(slide.data)) table.fail("file", "has pixels that are negative or no numbers");
   return slide;
 }
 

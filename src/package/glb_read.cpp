@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/finite.h"
 #include "image/io.h"
 #include "package/glb.h"
 #include "package/json.h"
@@ -288,9 +289,7 @@ class Reader {
       v.at("bufferView").fail("does not hold as many pixels as the slide has");
     slide.data.resize(3 * slide.pixels());
     std::memcpy(slide.data.data(), bytes.data(), bytes.size());
-    for (const float value : slide.data)
-      if (!(value >= 0 && std::isfinite(value)))
-        v.at("bufferView").fail("has pixels that are negative or no numbers");
+    if (!all_light(slide.data)) v.at("bufferView").fail("has pixels that are negative or no numbers");
     const float yfov = v.at("yfov").real(), aspect = v.at("aspect").real();
     if (!(yfov > 0 && yfov < kPi && aspect > 0))
       v.fail("has a yfov or aspect out of range", "0 < yfov < pi, aspect > 0");

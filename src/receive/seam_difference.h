@@ -45,11 +45,11 @@ inline bool stands_on(const World& world, const Tracer& tracer, uint32_t half_ed
 
 /// Texels across a chart: its area by its longer side.
 inline std::vector<float> chart_widths(const Atlas& atlas) {
-  struct Chart {
+  struct Extent {
     Bounds box;
     float area = 0;
   };
-  std::vector<Chart> charts;
+  std::vector<Extent> charts;
   for (const auto* sides : {&atlas.front, &atlas.back})
     for (const TexelTriangle& t : *sides) {
       if (t.page < 0) continue;
@@ -58,7 +58,7 @@ inline std::vector<float> chart_widths(const Atlas& atlas) {
       for (const Vec2& p : t.uv) charts[t.chart].box.add(Vec3(p, 0));
     }
   std::vector<float> out;
-  for (const Chart& c : charts) {
+  for (const Extent& c : charts) {
     const Vec3 size = c.box.empty() ? Vec3(0) : c.box.hi - c.box.lo;
     out.push_back(c.area > 0 ? c.area / std::max(size.x, size.y) : 0);
   }
