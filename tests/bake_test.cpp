@@ -64,6 +64,23 @@ TEST_F(Bake, SameBitsAtAnyThreadCount) {
   EXPECT_EQ(one, bytes(folder / "two.sconce"));
 }
 
+// Most texels are subnormal halves here, which Embree's threads took for 0.
+TEST_F(Bake, DimLampsKeepTheirLayers) {
+  Scene dim = test::two_lamp_room();
+  for (Material& material : dim.materials) material.emission = material.emission * 0x1p-15f;
+  write_file(scene, write_glb(dim, "test"));
+  bake_whole(folder / "dim.sconce", 2);
+  const Package package = Package::open(folder / "dim.sconce");
+  ASSERT_GE(package.manifest().layers.size(), 2u);
+  for (const LayerInfo& layer : package.manifest().layers) {
+    const GroupInfo& group = package.manifest().groups[layer.group];
+    ASSERT_EQ(layer.encoding, "f16");
+    ASSERT_LT(group.mean_lux, 0x1p-14) << "no halves without a leading one";
+    // Half a step of subnormals against the measure's floor, 1 % of the mean.
+    EXPECT_LT(layer.error.relative, 0x1p-25 / (0.01 * group.mean_lux) + 0x1p-11) << group.name;
+  }
+}
+
 TEST_F(Bake, ThreeShardsMergedAreTheWhole) {
   bake_whole(folder / "whole.sconce", 2);
   std::vector<BakeState> states;

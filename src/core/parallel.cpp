@@ -25,12 +25,16 @@ int ThreadLimit::current() {
 }
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t)>& f) {
+  // The caller's rounding and subnormals; else TBB's are those of its first use, which is inside Embree, and
+  // Embree lets subnormals be 0.
+  tbb::task_group_context context(tbb::task_group_context::bound, tbb::task_group_context::default_traits |
+                                                                      tbb::task_group_context::fp_settings);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(1, grain)),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
       },
-      tbb::simple_partitioner());
+      tbb::simple_partitioner(), context);
 }
 
 }  // namespace sconce

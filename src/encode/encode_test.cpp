@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #include <cmath>
 #include <limits>
@@ -40,6 +43,23 @@ TEST(Half, All65536Codes) {
     ASSERT_EQ(float_to_half(f), h) << code;
   }
 }
+
+#ifdef __SSE__
+TEST(Half, SubnormalsWhereFloatsHaveNone) {
+  const unsigned before = _mm_getcsr();
+  std::vector<float> values(1024);
+  _mm_setcsr(before | 0x8040);  // flush to zero, denormals are zero: as engines set them
+  for (int code = 0; code < 1024; ++code)
+    values[static_cast<std::size_t>(code)] = half_to_float(static_cast<uint16_t>(code));
+  std::vector<uint16_t> codes;
+  for (const float v : values) codes.push_back(float_to_half(v));
+  _mm_setcsr(before);
+  for (int code = 0; code < 1024; ++code) {
+    EXPECT_EQ(static_cast<double>(values[static_cast<std::size_t>(code)]), half_value(code));
+    EXPECT_EQ(codes[static_cast<std::size_t>(code)], code);
+  }
+}
+#endif
 
 TEST(Half, RoundsToNearestTiesToEven) {
   for (int code = 0; code < 0x7bff; ++code) {

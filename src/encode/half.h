@@ -10,13 +10,17 @@ namespace sconce {
 inline constexpr float kLargestHalf = 65504.0f;
 inline constexpr float kSmallestNormalHalf = 0x1p-14f;
 
-/// Exact for every code; NaN payloads are kept. Without branches, so that loops over it become vectors.
+/// Exact for every code; NaN payloads are kept. Without branches, so that loops over it become vectors, and
+/// without subnormal floats, which threads may have been told to take for 0 (DAZ; libraries leave it behind).
 constexpr float half_to_float(uint16_t h) {
   const uint32_t sign = static_cast<uint32_t>(h & 0x8000u) << 16, rest = static_cast<uint32_t>(h & 0x7fffu)
                                                                          << 13;
-  // Exponents are off by 112; subnormals become what they are by the same product.
-  const auto number = std::bit_cast<uint32_t>(std::bit_cast<float>(rest) * 0x1p112f);
-  return std::bit_cast<float>(sign | (rest >= 0x0f800000u ? rest | 0x7f800000u : number));
+  const uint32_t number = rest + 0x38000000u;  // exponents are off by 112
+  // A subnormal's mantissa behind a leading one, which is then taken away.
+  const auto small = std::bit_cast<uint32_t>(std::bit_cast<float>(rest + 0x38800000u) - kSmallestNormalHalf);
+  return std::bit_cast<float>(sign | (rest >= 0x0f800000u  ? rest | 0x7f800000u
+                                      : rest < 0x00800000u ? small
+                                                           : number));
 }
 
 /// Rounded to nearest, ties to even; above 65519.996 infinity, as in IEEE 754. NaN stays NaN.
