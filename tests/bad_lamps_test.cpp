@@ -243,6 +243,12 @@ TEST_F(BadLamps, Photographs) {
   refused("1-0.exr", ": is saturated in ");
   photograph("1-0.exr", -1);
   refused("1-0.exr", ": has negative pixels: ");
+  photograph("1-0.exr", 0.5f);
+  // The brighter pictures are said to be the negative ones.
+  for (const char* name : {"n0-0.exr", "n1-0.exr"}) photograph(name, 0.4f);
+  folder_.write("acquire.toml", settings.substr(0, settings.find("name =")) +
+                                    "name = \"n{m}-{n}.exr\"\nnegative = \"{m}-{n}.exr\"\n");
+  refused(folder_.path().filename().string(), ": sends -");
 }
 
 // In a scene: the side file's line, and the lamp's own.

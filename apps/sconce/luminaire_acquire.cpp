@@ -79,9 +79,12 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
           "all pictures; --watch waits for them");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
-  write_light_field(output, acquired.field(), as);
   const LightField& field = acquired.field();
   const double lumens = flux(field);
+  if (!(lumens > 0))
+    throw Error(folder, fmt::format("sends {:.4g} lm in all", lumens),
+                "light; did [pictures] name and negative change places?");
+  write_light_field(output, field, as);
   if (options.json)
     fmt::print(
         "{}\n",
