@@ -15,6 +15,10 @@ using Json = nlohmann::ordered_json;
 std::string percent(double value) {
   return fmt::format("{:.1f} %", 100 * value);
 }
+/// Dim groups keep two digits.
+std::string lux(double value) {
+  return value < 1 ? fmt::format("{:.2g}", value) : grouped(value, value < 100 ? 2 : 0);
+}
 std::string megabytes(double bytes) {
   return fmt::format("{:.2f}", bytes / 1e6);
 }
@@ -30,8 +34,7 @@ void add_groups(const Manifest& m, InfoReport& report) {
   Json& groups = report.json["groups"] = Json::array();
   for (const GroupInfo& g : m.groups) {
     table.add({g.name, g.infinite ? "-" : grouped(g.lumens, g.lumens < 100 ? 1 : 0), hex_color(g.color),
-               grouped(g.mean_lux, g.mean_lux < 100 ? 2 : 0), percent(g.noise),
-               std::to_string(g.lamps.size()), some_names(g.lamps)});
+               lux(g.mean_lux), percent(g.noise), std::to_string(g.lamps.size()), some_names(g.lamps)});
     groups.push_back({{"name", g.name},
                       {"lumens", g.infinite ? Json() : Json(g.lumens)},
                       {"color", json_of(g.color)},
