@@ -5,13 +5,8 @@
 
 namespace sconce::test {
 
-/// Waves on all surfaces, by tangents of the mesh or without, on flat and on smooth ones, mirrored in one
-/// wall, on both sides of a screen.
-inline Scene bumpy_room() {
-  Scene scene = two_lamp_room();
-  const auto screen = add_material(scene, "screen", Rgb(0.6f, 0.7f, 0.5f), {}, true);
-  add_sphere(scene, "ball", Id<Material>(0), Vec3(-0.45f, 0.35f, -0.3f), 0.35f, 8, false);
-  add_quad(scene, "screen", screen, Vec3(0.2f, 0, 0.1f), Vec3(0.6f, 0, 0.3f), Vec3(0, 0.9f, 0));
+/// Waves on all surfaces, by tangents of the mesh or without, mirrored for one material.
+inline void add_waves(Scene& scene) {
   constexpr int kSide = 64;
   Texture map;
   map.name = "waves";
@@ -36,6 +31,15 @@ inline Scene bumpy_room() {
     for (const Vec3& p : mesh.positions) mesh.texcoords[0].emplace_back(p.x + 0.7f * p.z, p.y - 0.4f * p.z);
     if (mesh.name == "back" || mesh.name == "floor") mesh.tangents.assign(4, {0.8f, 0, 0.6f, -1});
   }
+}
+
+/// With waves on flat and on smooth surfaces, on both sides of a screen.
+inline Scene bumpy_room() {
+  Scene scene = two_lamp_room();
+  const auto screen = add_material(scene, "screen", Rgb(0.6f, 0.7f, 0.5f), {}, true);
+  add_sphere(scene, "ball", Id<Material>(0), Vec3(-0.45f, 0.35f, -0.3f), 0.35f, 8, false);
+  add_quad(scene, "screen", screen, Vec3(0.2f, 0, 0.1f), Vec3(0.6f, 0, 0.3f), Vec3(0, 0.9f, 0));
+  add_waves(scene);
   return scene;
 }
 

@@ -3,11 +3,13 @@
 // light by the same operator, light shaders against lamps of the same kind.
 #include <gtest/gtest.h>
 
+#include "bumpy_room.h"
 #include "core/sobol.h"
 #include "gpu/direct_light.h"
 #include "gpu/transfer.h"
 #include "gpu/view.h"
 #include "import/lights.h"
+#include "package/test_unlit.h"
 #include "relight/relight.h"
 #include "relit_room.h"
 #include "transfer/folded_bounces.h"
@@ -20,7 +22,8 @@ using namespace test;
 /// Direct light alone, by rays and by OpenGL, at the middles of pixels.
 class DirectLight : public testing::Test {
  protected:
-  DirectLight() : package_(Package::open(room().package)), view_(package_) {
+  explicit DirectLight(const std::filesystem::path& package = room().package)
+      : package_(Package::open(package)), view_(package_) {
     params_.width = 96, params_.height = 96, params_.samples = 1;
     camera_ = view_.camera("");
     black_.assign(static_cast<std::size_t>(package_.manifest().pages),
@@ -33,17 +36,19 @@ class DirectLight : public testing::Test {
     lamps_ = std::make_unique<MovedLamps>(view_.scene(), view_.world(), view_.tracer(),
                                           MoreLights{lights, luminaires_}, groups);
     params_.samples = samples;
-    return view_.render(camera_, mix_, black_, params_, {}, nullptr,
-                        [&](const SurfacePoint& at, int x, int y, uint32_t sample) {
-                          return lamps_->illuminance(
-                              at, mix32(static_cast<uint32_t>(x), static_cast<uint32_t>(y)), sample);
-                        });
+    return view_.render(
+        camera_, mix_, black_, params_, {}, nullptr,
+        [&](const SurfacePoint& at, int x, int y, uint32_t sample) {
+          return lamps_->illuminance(at, mix32(static_cast<uint32_t>(x), static_cast<uint32_t>(y)), sample);
+        },
+        components_);
   }
   Image by_opengl(std::vector<gpu::LampShader> lamps) {
-    gpu::View view(context_, view_.shown());
+    gpu::View view(context_, view_.shown(), true);
     gpu::DirectLight light(context_, view.geometry(), view_.world().bounds, std::move(lamps));
     gpu::AddedLight* added[] = {&light};
-    view.draw(camera_, mix_.weights, gpu::MixedPages(context_, black_), params_, {}, {.added = added});
+    view.draw(camera_, mix_.weights, gpu::MixedPages(context_, black_, components_), params_, {},
+              {.added = added});
     mishaps_ = light.mishaps();
     return view.linear();
   }
@@ -128,7 +133,7 @@ class DirectLight : public testing::Test {
   const gpu::Context context_;
   Camera camera_;
   PictureParams params_;
-  std::vector<Image> black_;
+  std::vector<Image> black_, components_;  ///< of a lightmap that knows directions
   MixSpec mix_;
   std::unique_ptr<MovedLamps> lamps_;
   std::vector<Luminaire> luminaires_;  ///< that lights name
@@ -144,6 +149,36 @@ TEST_F(DirectLight, PointsSpotsAndSunsOutsideTheEdgesOfShadows) {
     SCOPED_TRACE(text);
     expect_alike(parse_lights(text, "test").lights.at(0));
   }
+}
+
+/// The room with waves on its walls, unlit.
+const std::filesystem::path& bumpy_package() {
+  static const TemporaryFolder folder;
+  static const std::filesystem::path path = [] {
+    Scene scene = open_room();
+    std::erase_if(scene.instances, [](const Instance& i) { return i.name.starts_with("lamp"); });
+    add_waves(scene);
+    return unlit(std::move(scene), folder.path()).path();
+  }();
+  return path;
+}
+
+class BumpyDirectLight : public DirectLight {
+ protected:
+  BumpyDirectLight() : DirectLight(bumpy_package()) {}
+};
+
+// By the rule of View::render(): where the lightmap's light sees normal maps.
+TEST_F(BumpyDirectLight, AsItsRays) {
+  const Light spot =
+      parse_lights("spot,position=-0.2,1.9,0.3,target=0.3,0.5,-0.4,lumens=400,inner=10,outer=40", "test")
+          .lights.at(0);
+  expect_alike(spot);
+  const Image smooth = by_rays({spot});
+  components_.assign(3 * black_.size(), black_.front());
+  expect_alike(spot);
+  EXPECT_GT(error_of(smooth, by_rays({spot})), 0.05);
+  expect_alike(parse_lights("point,position=0.35,1.2,-0.3,lumens=400,range=2", "test").lights.at(0));
 }
 
 TEST_F(DirectLight, AProjectorAsItsRays) {

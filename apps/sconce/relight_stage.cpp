@@ -56,17 +56,21 @@ std::string place(uint32_t number, int width) {
   return fmt::format("{}, {}", number % static_cast<uint32_t>(width), number / static_cast<uint32_t>(width));
 }
 
+bool mirrors(const RelightJob& job, const RelightDevice& device) {
+  return device.reflections && job.view.scene().has_mirrors();
+}
+
 class GlRelightStage : public RelightStage {
  public:
   GlRelightStage(const RelightJob& job, std::unique_ptr<gpu::Context> context,
                  std::vector<gpu::LampShader> shaders, const MovedLamps& lamps, const RelightDevice& device)
       : job_(job),
         context_(std::move(context)),
-        view_(*context_, job.view.shown()),
+        view_(*context_, job.view.shown(), job.view.sees_normal_maps() || mirrors(job, device)),
         direct_(*context_, view_.geometry(), job.view.world().bounds, std::move(shaders)),
         near_(*context_, view_.geometry(), job.view.world().bounds, lamps.lamps(), lamps.chosen(),
               {std::max(64, device.shadow_side / 4), device.terms_per_pass, device.srgbe,
-               device.reflections && job.view.scene().has_mirrors()}),
+               mirrors(job, device)}),
         transfer_(*context_, job.op) {
     using Clock = std::chrono::steady_clock;
     const gpu::Buffer points(*context_, job.op.lit, "the operator's cloud");
@@ -95,12 +99,11 @@ class GlRelightStage : public RelightStage {
   Image draw(const Camera& camera, const MixSpec& mix, const std::vector<Image>& pages,
              const std::vector<Image>& components, const PictureParams& params,
              const Progress& progress) override {
-    if (!components.empty())
-      progress.warn("OpenGL moves lamps over surfaces without normal maps: --device cpu sees them");
     if (params.reflections > 0 && job_.view.scene().has_mirrors()) progress.warn(kNoReflections);
     if (job_.view.scene().has_panes()) progress.warn(kNoPanes);
     near_.set_mix(mix.weights);
-    view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages), params, progress, {.added = added_});
+    view_.draw(camera, mix.weights, gpu::MixedPages(*context_, pages, components), params, progress,
+               {.added = added_});
     for (const gpu::DirectLight::Report& report : direct_.mishaps()) {
       std::string line = report.file + ": NaN or infinity, painted over:";
       if (report.cloud.count > 0)
@@ -148,8 +151,7 @@ std::unique_ptr<RelightStage> make_relight_stage(const RelightJob& job, const Re
   for (const std::string& name : job.lamps.buried())
     progress.warn("lamp '" + name + "' stands inside something: its rays end on backs of surfaces");
   const Scene& scene = job.view.scene();
-  const bool traced = device.name == "auto" && ((device.reflections && scene.has_mirrors()) ||
-                                                scene.has_panes() || job.view.sees_normal_maps());
+  const bool traced = device.name == "auto" && (mirrors(job, device) || scene.has_panes());
   const bool cpu = traced || job.cull > 0 || !job.op.gather.basis.values.empty();
   if (auto context = open_context(!job.shaders.empty() ? "gl" : cpu ? "cpu" : device.name)) {
     try {

@@ -74,6 +74,11 @@ class SoftwareStage : public CpuStage {
   Progress progress_;
 };
 
+bool mirrors_light_fields(const Scene& scene) {
+  return scene.has_mirrors() && std::any_of(scene.luminaires.begin(), scene.luminaires.end(),
+                                            [](const Luminaire& l) { return l.field != nullptr; });
+}
+
 class GlStage : public Stage {
  public:
   GlStage(const Package& package, std::unique_ptr<gpu::Context> context, const std::string& tier)
@@ -83,7 +88,7 @@ class GlStage : public Stage {
         shown_(package),
         directional_(package.manifest().basis == Basis::sh1 && shown_.scene.has_normal_maps()),
         layers_(for_tier(read_layers(package, directional_ ? coefficients(Basis::sh1) : 1), *tier_)),
-        view_(*context_, shown_, directional_) {}
+        view_(*context_, shown_, directional_ || mirrors_light_fields(shown_.scene)) {}
   std::string device() const override { return context_->capabilities().renderer; }
   const Scene& scene() const override { return shown_.scene; }
   // Finding a free view needs rays.
@@ -122,7 +127,7 @@ class GlStage : public Stage {
   std::unique_ptr<gpu::Context> context_;
   const ShaderTier* tier_;
   ShownScene shown_;
-  bool directional_;  ///< normal maps are seen
+  bool directional_;  ///< the lightmap's light sees normal maps
   EncodedLayers layers_;
   gpu::View view_;
   std::unique_ptr<gpu::NearLights> near_;

@@ -153,14 +153,14 @@ void Geometry::follow(const ShownScene& shown) {
 
 void Geometry::upload_textures(const Context& context) {
   const Scene& scene = shown_->scene;
-  const auto add = [&](const TextureUse& use, bool srgb) {
+  const auto add = [&](const TextureUse& use, bool srgb, GLenum data = GL_RGBA8) {
     if (!use.texture || textures_.contains({use.texture.value, srgb})) return;
     const sconce::Texture& texture = scene[use.texture];
     if (texture.pixels.data.empty()) return;
     TextureParams params;
     // Mesa's software decodes sRGB by a polynomial that is off by up to 0.7 %.
     const bool decoded = srgb && context.capabilities().software;
-    params.format = decoded ? GL_RGBA16F : srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    params.format = decoded ? GL_RGBA16F : srgb ? GL_SRGB8_ALPHA8 : data;
     params.width = texture.pixels.width;
     params.height = texture.pixels.height;
     params.filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
@@ -178,7 +178,9 @@ void Geometry::upload_textures(const Context& context) {
     add(material.base_color_texture, true);
     add(material.metallic_roughness_texture, false);
     if (material.emits()) add(material.emission_texture, true);
-    if (normal_maps_) add(material.normal_texture, false);
+    // Filtered to eight bits by Mesa's software, normals would turn by steps of half a degree.
+    if (normal_maps_)
+      add(material.normal_texture, false, context.capabilities().software ? GL_RGBA16 : GL_RGBA8);
   }
 }
 

@@ -30,6 +30,8 @@ class Geometry {
   /// Draws everything with `surface` (gpu/surface.glsl), which is in use.
   /// @param weights  of the light groups, for what emits
   void draw(const Program& surface, const std::vector<Rgb>& weights) const;
+  /// Whether there are any.
+  bool normal_maps() const { return normal_maps_; }
   /// Draws shapes alone, for gpu/shadow_fragment.glsl.
   void draw_shapes(const Program& shader) const;
 

@@ -21,7 +21,7 @@ float sconce_coat(SconceSurface s, float grazing) {
 float sconce_through(SconceSurface s) {
   if (s.roughness > kGlossy) return 1.0;
   const int turns = 6, heights = 10;
-  vec3 up = dot(s.normal, s.to_eye) > 0.0 ? s.normal : s.face;
+  vec3 up = dot(s.mapped, s.to_eye) > 0.0 ? s.mapped : s.face;
   float z = clamp(dot(s.to_eye, up), 0.0, 1.0), alpha = s.roughness * s.roughness, sum = 0.0;
   vec3 eye = vec3(sqrt(1.0 - z * z), 0.0, z), wide = vec3(alpha * eye.x, 0.0, eye.z);
   wide = wide == vec3(0.0) ? vec3(0.0, 0.0, 1.0) : normalize(wide);
@@ -48,7 +48,7 @@ vec3 sconce_mirrored_by(SconceSurface s, float cosine) {
 vec3 sconce_gloss(SconceSurface s, vec3 direction, float least_alpha) {
   float above = dot(direction, s.face);
   if (!(above > 0.0)) return vec3(0.0);
-  vec3 up = dot(s.normal, s.to_eye) > 0.0 ? s.normal : s.face;
+  vec3 up = dot(s.mapped, s.to_eye) > 0.0 ? s.mapped : s.face;
   float eye = dot(s.to_eye, up);
   if (!(eye > 0.0)) return vec3(0.0);
   float alpha = max(s.roughness * s.roughness, least_alpha), alpha2 = alpha * alpha;

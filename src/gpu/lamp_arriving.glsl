@@ -9,8 +9,8 @@ void sconce_count(uint number) {
   atomicMin(sconce_first_mishap, number);
 }
 
-// e: illuminance, lux. Returns false, and black, where the lamp's answer is no number.
-bool sconce_arriving(vec3 P, vec3 N, vec3 face, out vec3 e) {
+// bend: between the interpolated normal and the face's. e: illuminance, lux. Returns false, and black, where the lamp's answer is no number.
+bool sconce_arriving(vec3 P, vec3 N, vec3 face, float bend, out vec3 e) {
   e = light(P, N);
   // By bits: compilers may assume that there is no NaN.
   uvec3 exponent = (floatBitsToUint(e) >> 23u) & 255u;
@@ -20,6 +20,6 @@ bool sconce_arriving(vec3 P, vec3 N, vec3 face, out vec3 e) {
   }
   if (e == vec3(0.0)) return true;
   vec3 to = sconce_parallel ? -lamp_axis : lamp_position - P;
-  e *= sconce_views > 0 && !(dot(to, face) > 0.0) ? 0.0 : sconce_visible(P, N, face);
+  e *= sconce_views > 0 && !(dot(to, face) > 0.0) ? 0.0 : sconce_visible(P, face, bend);
   return true;
 }

@@ -8,7 +8,7 @@ vec3 sconce_around(ivec2 at) {
     for (int x = -1; x <= 1; ++x) {
       SconceSurface s = sconce_surface(at + ivec2(x, y));
       vec3 e;
-      if (s.there && sconce_arriving(s.place, s.normal, s.face, e)) sum += vec4(e, 1.0);
+      if (s.there && sconce_arriving(s.place, s.normal, s.face, s.bend, e)) sum += vec4(e, 1.0);
     }
   return sum.rgb / max(sum.w, 1.0);
 }
@@ -18,7 +18,7 @@ void main() {
   SconceSurface s = sconce_surface(at);
   if (!s.there) return;
   vec3 e;
-  if (!sconce_arriving(s.place, s.normal, s.face, e)) {
+  if (!sconce_arriving(s.place, s.normal, s.face, s.bend, e)) {
     sconce_count(uint(at.y * imageSize(sconce_seen).x + at.x));
     e = sconce_around(at);
   }

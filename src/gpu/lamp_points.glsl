@@ -16,9 +16,8 @@ void main() {
   uint good = 0u;
   for (uint i = sconce_per_slot * slot; i < sconce_per_slot * (slot + 1u); ++i) {
     vec3 P = uintBitsToFloat(uvec3(sconce_points[7u * i], sconce_points[7u * i + 1u], sconce_points[7u * i + 2u]));
-    vec3 e;
-    if (!sconce_arriving(P, sconce_octahedral(sconce_points[7u * i + 3u]),
-                         sconce_octahedral(sconce_points[7u * i + 4u]), e)) {
+    vec3 N = sconce_octahedral(sconce_points[7u * i + 3u]), face = sconce_octahedral(sconce_points[7u * i + 4u]), e;
+    if (!sconce_arriving(P, N, face, length(N - face), e)) {
       sconce_count(i);
       continue;
     }

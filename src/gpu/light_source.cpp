@@ -5,24 +5,30 @@ namespace sconce::gpu {
 
 namespace {
 
-TextureParams array_of(const std::vector<Image>& pages) {
+TextureParams array_of(const std::vector<Image>& pages, const std::vector<Image>& components) {
   return {.format = GL_RGB32F,
           .width = pages.front().width,
           .height = pages.front().height,
-          .layers = static_cast<int>(pages.size())};
+          .layers = static_cast<int>(pages.size() + components.size())};
 }
 
 }  // namespace
 
-MixedPages::MixedPages(const Context& context, const std::vector<Image>& pages)
-    : texture_(context, array_of(pages), "lightmap") {
-  set(pages);
+MixedPages::MixedPages(const Context& context, const std::vector<Image>& pages,
+                       const std::vector<Image>& components)
+    : page_count_(static_cast<int>(pages.size())),
+      texture_(context, array_of(pages, components), "lightmap") {
+  set(pages, components);
   context.check("uploading the lightmap");
 }
 
-void MixedPages::set(const std::vector<Image>& pages) const {
+void MixedPages::set(const std::vector<Image>& pages, const std::vector<Image>& components) const {
   for (std::size_t page = 0; page < pages.size(); ++page)
     texture_.upload(GL_RGB, GL_FLOAT, pages[page].data.data(), static_cast<int>(page));
+  // Three of each page; the shader has all pages of one axis before those of the next.
+  for (std::size_t i = 0; i < components.size(); ++i)
+    texture_.upload(GL_RGB, GL_FLOAT, components[i].data.data(),
+                    static_cast<int>((i % 3 + 1) * pages.size() + i / 3));
 }
 
 std::string lightmap_glsl(bool filter, int pages, std::size_t coefficients) {
@@ -62,7 +68,7 @@ vec3 illuminance(vec2 uv, int page, vec3 offset) {
 }
 
 std::string MixedPages::glsl() const {
-  return lightmap_glsl(true, texture_.params().layers, 1);
+  return lightmap_glsl(true, page_count_, static_cast<std::size_t>(texture_.params().layers / page_count_));
 }
 
 void MixedPages::bind(const Program& program, int first_unit) const {

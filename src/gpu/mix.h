@@ -21,6 +21,7 @@ class PixelMix : public LightSource {
 
   void set(const std::vector<Rgb>& weights) { weights_ = weights; }
   std::string glsl() const override;
+  bool directional() const override { return coefficients_ > 1; }
   void bind(const Program& program, int first_unit) const override;
 
  private:
@@ -46,6 +47,7 @@ class AtlasMix : public LightSource {
   /// RGB lux: all pages of the first coefficient, then those of the next. For tests.
   std::vector<Image> read() const;
   std::string glsl() const override;
+  bool directional() const override { return page_count_ < pages_.params().layers; }
   void bind(const Program& program, int first_unit) const override;
 
  private:

@@ -2,8 +2,8 @@
 // A light field as gpu/lamp_points.glsl asks for it, after gpu/near_light.glsl.
 
 // e: illuminance, lux, of this pass's terms; always a number.
-bool sconce_arriving(vec3 P, vec3 N, vec3 face, out vec3 e) {
-  NearPlace p = near_place(P, N, face);
+bool sconce_arriving(vec3 P, vec3 N, vec3 face, float bend, out vec3 e) {
+  NearPlace p = near_place(P, N, face, bend);
   float sum = 0.0;
   for (int i = 0; p.below && i < near_count; ++i) {
     vec3 to = near_way(i, p);

@@ -44,10 +44,11 @@ float near_mean(int term, vec2 st, float size) {
 struct NearPlace {
   bool below;  // the sampling plane; else nothing arrives
   vec3 x, normal, face;
+  float bend;
 };
 
-NearPlace near_place(vec3 P, vec3 N, vec3 face) {
-  NearPlace p = NearPlace(false, (P - near_position) * near_frame, N * near_frame, face * near_frame);
+NearPlace near_place(vec3 P, vec3 N, vec3 face, float bend) {
+  NearPlace p = NearPlace(false, (P - near_position) * near_frame, N * near_frame, face * near_frame, bend);
   p.below = p.x.z < -1e-6;
   return p;
 }
@@ -59,7 +60,7 @@ float near_visible(int layer, vec2 centre, vec2 st, NearPlace p) {
   mat3 from = mat3(near_texel.x / near_distance, 0.0, 0.0, 0.0, near_texel.y / near_distance, 0.0,
                    (near_low - centre) / near_distance, -1.0);
   return sconce_filtered(near_depths, layer, (st - near_low) / near_texel, -p.x.z, p.x - vec3(centre, 0.0), from,
-                         near_end, false, p.normal, p.face);
+                         near_end, false, p.face, p.bend);
 }
 
 // By the i-th term of this pass, whose centre lies at `to`: lux, with its shadow. cosine: of the surface.

@@ -6,9 +6,9 @@ uniform vec3 near_shine;  // weight of what glossy surfaces mirror; black: they 
 // Radiance towards the eye, cd/m2, of this pass's terms: what is diffuse, and the lobe at each filter's centre, at least
 // as wide as half a filter (eq. 13; twin of picture/glint.cpp).
 vec3 near_seen(SconceSurface s) {
-  NearPlace p = near_place(s.place, s.normal, s.face);
+  NearPlace p = near_place(s.place, s.normal, s.face, s.bend);
   if (!p.below) return vec3(0.0);
-  s.to_eye = s.to_eye * near_frame, s.normal = p.normal, s.face = p.face;
+  s.to_eye = s.to_eye * near_frame, s.mapped = s.mapped * near_frame, s.face = p.face;
   bool mirrors = near_shine != vec3(0.0) && sconce_mirrors(s), matt = s.there && near_color != vec3(0.0);
   float sum = 0.0;
   vec3 glints = vec3(0.0);

@@ -27,6 +27,9 @@ void SeenSurfaces::shade(const Program& program, const Texture& picture) const {
   for (const Texture* texture : {&depth, &surfaces, &materials}) texture->bind(unit++);
   unit = 0;
   for (const char* name : {"sconce_depth", "sconce_surfaces", "sconce_materials"}) program.set(name, unit++);
+  if (mapped != nullptr) mapped->bind(unit);
+  program.set("sconce_mapped", unit);
+  program.set("sconce_normal_maps", mapped == nullptr ? 0 : directional ? 2 : 1);
   program.set("sconce_seen_from", lens.eye()), program.set("sconce_seen_plane", lens.plane());
   program.set("sconce_seen_shift", shift);
   glBindImageTexture(0, picture.handle(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);

@@ -5,7 +5,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D sconce_depth;
-uniform usampler2D sconce_surfaces, sconce_materials;  // gpu/surface.glsl
+uniform usampler2D sconce_surfaces, sconce_materials, sconce_mapped;  // gpu/surface.glsl
+uniform int sconce_normal_maps;  // seen by: 0 nothing, 1 what is mirrored, 2 diffuse light, too
 uniform vec3 sconce_seen_from;
 uniform mat3 sconce_seen_plane;  // Lens::plane
 uniform vec2 sconce_seen_shift;  // of the picture below its sampling points, in pixels
@@ -13,7 +14,9 @@ layout(rgba32f, binding = 0) uniform image2D sconce_seen;
 
 struct SconceSurface {
   bool lit, there;                       // something; that is not black
-  vec3 place, normal, face, base, to_eye;  // base: colour, of metals, too
+  vec3 place, face, base, to_eye;        // base: colour, of metals, too
+  vec3 normal, mapped;                   // of what is diffuse; of what is mirrored
+  float bend;                            // between the interpolated normal and the face's
   float metallic, roughness;
 };
 
@@ -31,8 +34,11 @@ SconceSurface sconce_surface(ivec2 at) {
   s.lit = true;
   s.place = sconce_seen_from + uintBitsToFloat(surface.x) * ray;
   s.to_eye = -normalize(ray);
-  s.normal = sconce_octahedral(surface.y);
+  s.normal = s.mapped = sconce_octahedral(surface.y);
   s.face = sconce_octahedral(surface.z);
+  s.bend = length(s.normal - s.face);
+  if (sconce_normal_maps > 0) s.mapped = sconce_octahedral(texelFetch(sconce_mapped, at, 0).r);
+  if (sconce_normal_maps > 1) s.normal = s.mapped;
   s.base = vec3(unpackUnorm2x16(surface.w), more.x);
   s.metallic = more.y;
   s.there = s.base != vec3(0.0);

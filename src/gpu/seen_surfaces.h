@@ -10,11 +10,13 @@
 
 namespace sconce::gpu {
 
-/// What one pass of a picture shows, per pixel: 28 bytes with the depth.
+/// What one pass of a picture shows, per pixel: 28 bytes with the depth, 32 where there are normal maps.
 struct SeenSurfaces {
   const Texture& depth;      ///< 0 where nothing is; there the others say nothing
   const Texture& surfaces;   ///< RGBA32UI: place, normals and colour as gpu/surface.glsl packs them
   const Texture& materials;  ///< RG32UI: what they mirror
+  const Texture* mapped;     ///< R32UI: normals by normal maps; null where they are not seen
+  bool directional;          ///< diffuse light sees them, too, as the lightmap's does
   const Lens& lens;          ///< that it was seen through
   Vec2 shift{0};             ///< of the picture below its sampling points, in pixels
 
@@ -23,7 +25,7 @@ struct SeenSurfaces {
   /// @param picture  RGBA floats of that size: radiance, cd/m2
   void shade(const Program& program, const Texture& picture) const;
 
-  static constexpr int kUnits = 3;  ///< that shade() uses, from 0 on
+  static constexpr int kUnits = 4;  ///< that shade() uses, from 0 on
   /// gpu/octahedral.glsl and gpu/seen_surfaces.glsl.
   static std::string glsl();
 };

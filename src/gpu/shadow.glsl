@@ -17,7 +17,7 @@ int sconce_view(vec3 d) {
 }
 
 // Share of the lamp that a surface sees.
-float sconce_visible(vec3 P, vec3 N, vec3 face) {
+float sconce_visible(vec3 P, vec3 face, float bend) {
   if (sconce_views == 0) return 1.0;
   vec3 d = P - sconce_eye;
   int view = sconce_view(d);
@@ -26,5 +26,5 @@ float sconce_visible(vec3 P, vec3 N, vec3 face) {
   vec2 at = sconce_parallel ? q.xy : q.xy / q.z;
   vec2 size = vec2(textureSize(sconce_shadow, 0).xy);
   if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, size))) return sconce_parallel ? 1.0 : 0.0;
-  return sconce_filtered(sconce_shadow, view, at, q.z, d, sconce_from_plane[view], sconce_near, sconce_parallel, N, face);
+  return sconce_filtered(sconce_shadow, view, at, q.z, d, sconce_from_plane[view], sconce_near, sconce_parallel, face, bend);
 }

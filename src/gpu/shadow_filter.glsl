@@ -4,9 +4,9 @@
 
 // Share of a lamp that a surface sees.
 // at: texels; z: depth; d: from the lamp's eye; to texels and depth: (x, y, 1) z, or (x, y, z) for parallel light; from:
-// back to d. N: shading normal; where it differs from the face's, neighbouring faces bend away.
+// back to d. bend: between the interpolated normal and the face's; where there is any, neighbouring faces bend away.
 float sconce_filtered(sampler2DArray map, int layer, vec2 at, float z, vec3 d, mat3 from, float near, bool parallel,
-                      vec3 N, vec3 face) {
+                      vec3 face, float bend) {
   // The plane as the map has it: dot(m, (x, y, 1)) z = c, or dot(m, (x, y, z)) = c for parallel light.
   vec3 m = face * from;
   float c = dot(face, d);
@@ -15,7 +15,7 @@ float sconce_filtered(sampler2DArray map, int layer, vec2 at, float z, vec3 d, m
   float slack = 1e-5 * (parallel ? 1.0 : near / z) + length(slope.xy) / 32.0;
   // And on a hollow surface of flat faces, how much nearer the next face is two texels on.
   float cosine = parallel ? abs(m.z) / length(from[2]) : abs(c) / length(d);
-  slack += 4.0 * length(from[0]) * length(N - face) / max(cosine, 0.05) * (parallel ? 1.0 / length(from[2]) : near / z);
+  slack += 4.0 * length(from[0]) * bend / max(cosine, 0.05) * (parallel ? 1.0 / length(from[2]) : near / z);
   vec2 low = floor(at - 0.5), part = at - 0.5 - low;
   ivec2 last = textureSize(map, 0).xy - 1;
   float sum = 0.0;

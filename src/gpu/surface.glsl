@@ -26,6 +26,7 @@ uniform vec2 shift;  // of the picture below its sampling points, in pixels
 in vec3 place;
 layout(location = 1) out uvec4 seen_surface;   // depth, m; normals towards the camera: interpolated, the face's; base colour
 layout(location = 2) out uvec2 seen_material;  // blue and metallic; roughness, -1 on backs that are black
+layout(location = 3) out uint seen_mapped;     // the normal map's normal, where it is kept
 #endif
 
 // World::normal
@@ -105,6 +106,7 @@ void main() {
   float depth = dot(place - eye, face_normal) / dot(ray, face_normal);
   seen_surface = uvec4(floatBitsToUint(depth), packSnorm2x16(sconce_to_octahedral(side * front_normal())),
                        packSnorm2x16(sconce_to_octahedral(side * face_normal)), packUnorm2x16(base.rg));
+  seen_mapped = packSnorm2x16(sconce_to_octahedral(side * front_normal() + offset));
   seen_material = uvec2(packUnorm2x16(vec2(base.b, rough_metal.y)), floatBitsToUint(lit ? rough_metal.x : -1.0));
 #endif
 }

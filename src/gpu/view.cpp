@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/view.h"
 
-#include <array>
-
 #include "core/error.h"
 #include "core/sobol.h"
 #include "gpu/display_pass.h"
@@ -50,10 +48,13 @@ struct View::Targets {
 
 /// The same pass, with what it shows.
 struct View::Surfaces {
-  Surfaces(const Context& context, const Targets& targets)
+  Surfaces(const Context& context, const Targets& targets, bool normal_maps)
       : surfaces(context, params(targets, GL_RGBA32UI), "picture"),
-        materials(context, params(targets, GL_RG32UI), "picture"),
-        pass(targets.color, 0, &targets.depth, std::array{&surfaces, &materials}) {}
+        materials(context, params(targets, GL_RG32UI), "picture") {
+    std::vector<const Texture*> more{&surfaces, &materials};
+    if (normal_maps) more.push_back(&mapped.emplace(context, params(targets, GL_R32UI), "picture"));
+    pass.emplace(targets.color, 0, &targets.depth, more);
+  }
   static TextureParams params(const Targets& targets, GLenum format) {
     return {.format = format, .width = targets.width(), .height = targets.height(), .filter = GL_NEAREST};
   }
@@ -68,7 +69,9 @@ struct View::Surfaces {
   }
 
   Texture surfaces, materials;
-  Framebuffer pass;
+  std::optional<Texture> mapped;
+  std::optional<Framebuffer> pass;
+  bool directional = false;     ///< SeenSurfaces, of the last pass
   std::optional<Texture> kept;  ///< the picture without added light
   std::optional<Lens> lens;     ///< that this was seen through
 };
@@ -141,8 +144,8 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     surfaces_.reset(), targets_ = std::make_unique<Targets>(*context_, params.width, params.height);
   const std::span<AddedLight* const> added = options.added;
   if ((!added.empty() || options.keep) && surfaces_ == nullptr)
-    surfaces_ = std::make_unique<Surfaces>(*context_, *targets_);
-  if (surfaces_ != nullptr) surfaces_->lens.reset();
+    surfaces_ = std::make_unique<Surfaces>(*context_, *targets_, geometry_.normal_maps());
+  if (surfaces_ != nullptr) surfaces_->lens.reset(), surfaces_->directional = light.directional();
   if (options.keep && params.samples > 1)
     throw UsageError("a picture that is kept", std::to_string(params.samples) + " samples", "one");
   samples_ = options.last < 0 ? params.samples : std::min(options.last, params.samples);
@@ -171,7 +174,7 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
     targets_->pass.use();
     targets_->pass.clear();
     if (options.look == Look::picture) draw_sky(lens, weights, shift);
-    if (!added.empty() || options.keep) surfaces_->pass.use();
+    if (!added.empty() || options.keep) surfaces_->pass->use();
     glEnable(GL_DEPTH_TEST);
     surface.use();
     surface.set("shift", shift);
@@ -188,7 +191,9 @@ void View::draw(const Camera& camera, const std::vector<Rgb>& weights, const Lig
 
 void View::add(std::span<AddedLight* const> added, const Lens& lens, Vec2 shift) const {
   for (AddedLight* more : added)
-    more->add({targets_->depth, surfaces_->surfaces, surfaces_->materials, lens, shift}, targets_->color);
+    more->add({targets_->depth, surfaces_->surfaces, surfaces_->materials,
+               surfaces_->mapped ? &*surfaces_->mapped : nullptr, surfaces_->directional, lens, shift},
+              targets_->color);
 }
 
 void View::relight(std::span<AddedLight* const> added) {

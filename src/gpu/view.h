@@ -34,7 +34,7 @@ struct DrawOptions {
 class View {
  public:
   /// @param context, shown  must outlive it
-  /// @param normal_maps     are seen, by light sources that know directions; cost memory
+  /// @param normal_maps     are seen, by light sources that know directions and by added light; cost memory
   View(const Context& context, const ShownScene& shown, bool normal_maps = false);
   ~View();
 
