@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/files.h"
 #include "image/io.h"
 #include "process.h"
@@ -73,6 +75,37 @@ class PutElsewhere : public testing::Test {
     return test::run_sconce(words);
   }
 };
+
+// Lux where the block was and in its new shadow, with a lamp moved, too: the paths of a scene that is so.
+TEST_F(PutElsewhere, LuxIsThatOfTheSceneSetUpAnew) {
+  Scene there = test::with_block_at(kThere, kTurn);
+  for (Instance& instance : there.instances)
+    if (instance.name == "lamp left") instance.transform[3] += glm::vec4(0.6f, -0.58f, 0.2f, 0);
+  for (const auto& [name, scene] : {std::pair{"here", test::two_lamp_room()}, {"there", there}}) {
+    write_file(folder / (std::string(name) + ".glb"), write_glb(scene, "test"));
+    const test::Outcome made = test::run_sconce(
+        {"bake", file(std::string(name) + ".glb"), "--density", "4", "--samples", "1", "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  const auto lux = [&](const std::string& package, const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "probe", file(package), "right=0.5",       "--json", "--samples",
+        "8192",  "--at",        "0.35,0.01,-0.35", "--at",   "-0.9,0.3,-0.2,-1,0,0"};
+    words.insert(words.end(), more.begin(), more.end());
+    const test::Outcome probed = test::run_sconce(words);
+    EXPECT_EQ(probed.code, 0) << probed.err;
+    return nlohmann::json::parse(probed.out)["lux"];
+  };
+  const auto moved =
+                 lux("here.sconce", {"--move", "lamp left=0,1.4,0.2", "--object",
+                                     fmt::format("block={},{},{},{}", kThere.x, kThere.y, kThere.z, kTurn)}),
+             made = lux("there.sconce", {}), home = lux("here.sconce", {});
+  for (const char* figure : {"minimum", "maximum"}) {
+    const double truth = made[figure].get<double>();
+    EXPECT_NEAR(moved[figure].get<double>(), truth, 0.01 * truth) << figure;
+    EXPECT_GT(std::abs(home[figure].get<double>() - truth), 0.05 * truth) << figure;
+  }
+}
 
 // The picture is that of the scene baked anew with the block there; the floor that it left is lit, too.
 TEST_F(PutElsewhere, PicturesAreThoseOfTheSceneBakedThere) {

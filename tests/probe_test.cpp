@@ -53,6 +53,47 @@ TEST_F(Probe, ClosedFormsPerGroupAndMixed) {
   EXPECT_NEAR(kept["daylight_factor_percent"]["average"].get<double>(), 100, 0.2);
 }
 
+// What `relight` takes: the lamp elsewhere, turned, another one, one more.
+TEST_F(Probe, ClosedFormsOfLampsElsewhere) {
+  const auto lux = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--at", "0,0.5,0", "sky=off"});
+    return probe(std::move(more))["lux"]["average"].get<double>();
+  };
+  EXPECT_NEAR(lux({"--move", "lamp=1,3,0"}), 100 * 2.5 / std::pow(1 + 2.5 * 2.5, 1.5), 0.01);
+  EXPECT_NEAR(lux({"--kind", "lamp=point,intensity=50", "lamp=40%"}), 20 / 2.25, 0.01);
+  EXPECT_NEAR(lux({"--kind", "lamp=spot,outer=20,intensity=50", "--move", "lamp=0,2,1"}), 0, 1e-6);
+  EXPECT_NEAR(
+      lux({"--kind", "lamp=spot,outer=20,inner=19,intensity=50", "--move", "lamp=0,2.5,1.5,target=0,0.5,0"}),
+      50 / 6.25 * 0.8, 0.01);
+  folder_.write("moved.toml", "[mix]\nlamp = 0.5\n[lamp.lamp]\nat = [0, 1, 0]\n");
+  EXPECT_NEAR(lux({"--preset", path("moved.toml")}), 50 / 0.25, 0.01);
+  const nlohmann::json more =
+      probe({"--light", "point,position=0,1,0,intensity=30", "--at", "0,0.5,0", "sky=off"});
+  EXPECT_NEAR(more["lux"]["average"].get<double>(), 30 / 0.25 + 100 / 2.25, 0.01);
+  ASSERT_EQ(more["groups"].size(), 3u);
+  EXPECT_EQ(more["groups"][2]["name"], "added");
+  EXPECT_NEAR(more["groups"][2]["lux"]["average"].get<double>(), 30 / 0.25, 0.01);
+}
+
+// Faders are sought with lamps where they are, and the preset keeps them there. A lamp beside the groups
+// gives 40 lx below it whatever they are, so that the group's lamp, 1 m up, goes to 60 cd for 100 lx. 3 m
+// aside both give what only they explain, not the even sky.
+TEST_F(Probe, FitSeeksWithLampsElsewhere) {
+  const double aside = 60 / std::pow(10, 1.5) + 10 * 0.5 / std::pow(9.25, 1.5);
+  const std::string light = "point,position=0,1,0,intensity=10";
+  const test::Outcome fitted = test::run_sconce({"fit", path("x.sconce"), "--lux", "0,0.5,0=100", "--lux",
+                                                 "3,0.5,0=" + std::to_string(aside), "--move", "lamp=0,1.5,0",
+                                                 "--light", light, "-o", path("fit.toml"), "--json"});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  const nlohmann::json report = nlohmann::json::parse(fitted.out);
+  EXPECT_NEAR(report["points"][0]["lux"].get<double>(), 100, 0.5);
+  EXPECT_NEAR(report["points"][1]["lux"].get<double>(), aside, 0.02);
+  const nlohmann::json reached =
+      probe({"--at", "0,0.5,0", "--preset", path("fit.toml"), "--light", light, "sky=off"});
+  EXPECT_NEAR(reached["groups"][0]["lux"]["average"].get<double>(), 60, 0.5);
+  EXPECT_NEAR(reached["groups"][2]["lux"]["average"].get<double>(), 40, 0.01);
+}
+
 TEST_F(Probe, PlanesAndTheirStatistics) {
   // Two points at 1 m and 3 m beside the lamp's foot.
   const nlohmann::json two = probe({"--plane", "0,0,-0.5/4,0,0/0,0,1", "--grid", "2", "sky=off"});
@@ -120,6 +161,9 @@ TEST_F(Probe, BadInputIsOneLine) {
   refused({"--plane", "0,0,0/1,0,0/1,1,0"}, 2, "right angles");
   refused({"--at", "0,0,0", "-o", path("p.png")}, 2, "needs --plane");
   refused({"--at", "0,0,0", "--maintenance", "2"}, 2, "out of range");
+  refused({"--at", "0,0,0", "--move", "lmp=1,1,1"}, 2, "did you mean 'lamp'");
+  refused({"--at", "0,0,0", "--object", "chair=1,1,1"}, 2, "no object 'chair'");
+  refused({"--at", "0,0,0", "--probes", "--move", "lamp=1,1,1"}, 2, "probes know lamps");
   folder_.write("bad.txt", "0 1 2\n3 4 x\n");
   refused({"--points", path("bad.txt")}, 1, "bad.txt:2");
 }

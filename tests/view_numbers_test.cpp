@@ -80,19 +80,29 @@ TEST_F(ViewTest, FiguresFollowMovedLamps) {
   const auto average = [&](const char* file, std::size_t row) {
     return parse_number(figures(file).at(row).at(3)).value();
   };
-  const auto probed = [&](std::vector<std::string> at) {
-    at.insert(at.begin(), {"probe", path("moved.sconce")});
+  const auto probed = [&](std::vector<std::string> at, const std::string& package) {
+    at.insert(at.begin(), {"probe", package});
     for (const char* word : {"right=0.5", "--json"}) at.emplace_back(word);
     const auto probe = test::run_sconce(at);
     EXPECT_EQ(probe.code, 0) << probe.err;
     return nlohmann::json::parse(probe.out)["lux"]["average"].get<double>();
   };
   ASSERT_EQ(figures("there.csv").at(2).at(0), "goal 1");
-  const double plane = probed({"--plane", "floor+0.9", "--grid", "0.4"}),
-               goal = probed({"--at", "0.2,0.8,0.3"});
+  const double plane = probed({"--plane", "floor+0.9", "--grid", "0.4"}, path("moved.sconce")),
+               goal = probed({"--at", "0.2,0.8,0.3"}, path("moved.sconce"));
   EXPECT_NEAR(average("there.csv", 1), plane, 0.02 * plane);
   EXPECT_NEAR(average("there.csv", 2), goal, 0.02 * goal);
   EXPECT_GT(std::abs(average("home.csv", 2) - goal), 0.1 * goal);
+  // The command measures what the window does.
+  const auto commanded = [&](std::vector<std::string> at) {
+    at.insert(at.end(), {"--move", "lamp left=0,1.4,0.2"});
+    return probed(std::move(at), path("x.sconce"));
+  };
+  const double commanded_plane = commanded({"--plane", "floor+0.9", "--grid", "0.4"}),
+               commanded_goal = commanded({"--at", "0.2,0.8,0.3"});
+  EXPECT_NEAR(average("there.csv", 1), commanded_plane, 0.01 * plane);
+  EXPECT_NEAR(average("there.csv", 2), commanded_goal, 0.01 * goal);
+  EXPECT_NEAR(commanded_plane, plane, 0.01 * plane);
   EXPECT_NEAR(average("sought.csv", 2), 300, 3);
   EXPECT_NEAR(average("back.csv", 1), average("home.csv", 1), 0.1);
   EXPECT_NEAR(average("back.csv", 2), average("home.csv", 2), 0.1);

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
+#include "move_options.h"
 #include "picture_options.h"
 #include "probe_points.h"
 #include "session/goals.h"
@@ -57,6 +58,8 @@ int run_fit(int argc, const char* const* argv) {
   std::string input, target, output;
   std::vector<std::string> points;
   MixOptions settings;
+  settings.moves_lamps = true;
+  MoveOptions moves;
   PictureOptions picture;
   Options options(
       "fit",
@@ -67,6 +70,7 @@ int run_fit(int argc, const char* const* argv) {
        "sconce render {PACKAGE} --preset {PRESET}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
+  moves.declare(options);
   options.option("--target", &target,
                  "picture to look like: OpenEXR or Radiance in cd/m2; PNG or JPEG as exposed");
   options.option("--lux", &points,
@@ -98,16 +102,23 @@ int run_fit(int argc, const char* const* argv) {
   Wishes wishes(groups.size());
   std::vector<SurfacePoint> places;
   for (const PointGoal& goal : goals) places.push_back(goal.at);
-  PointMeter meter(view, places, ReceiverKind::plane);
+  const Rearrangement now(moves, start, package, view, progress);
+  PointMeter meter = now.meter(places);
   if (!places.empty()) meter.pass(kPaths, progress);
   const auto lux_at = [&](std::size_t i) {
-    return std::span(meter.light().values).subspan(i * groups.size(), groups.size());
+    const std::size_t all = meter.light().groups;
+    return std::span(meter.light().values).subspan(i * all, all);
   };
-  for (std::size_t i = 0; i < goals.size(); ++i) wish_lux(wishes, lux_at(i), unit, goals[i].lux);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const std::span<const Rgb> lux = lux_at(i);
+    const Rgb given = lux.size() > groups.size() ? lux.back() : Rgb();
+    wish_lux(wishes, lux.first(groups.size()), unit, goals[i].lux, static_cast<double>(luminance(given)));
+  }
   if (!target.empty()) {
     const MixSpec mix = make_mix(groups, faders);
     const Image wanted = read_target(target, picture, package, mix, progress);
     const Camera camera = picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
+    if (now.any()) progress.warn("the picture is sought with lamps and objects where they were baked");
     wish_picture(wishes, view, layers, camera, unit, wanted, progress);
   }
   std::vector<double> power;
@@ -116,14 +127,16 @@ int run_fit(int argc, const char* const* argv) {
   const Fit found = fit(wishes, power, goals.empty() ? 0 : kThrift);
   const double milliseconds = fitting.milliseconds();
   faders = with_gains(faders, found.gains);
-  const Preset preset = to_preset(groups, faders);
+  Preset preset = to_preset(groups, faders);
+  preset.lamps = now.preset_lamps();
   const std::string text = print_preset(preset);
   if (!output.empty()) write_file(output, text);
 
   double lumens = 0;
   nlohmann::ordered_json reached = nlohmann::ordered_json::array();
   for (std::size_t g = 0; g < groups.size(); ++g) lumens += groups[g].lumens * found.gains[g];
-  const MixSpec mix = make_mix(groups, faders);
+  MixSpec mix = make_mix(groups, faders);
+  if (!now.added().lights.empty()) mix.weights.emplace_back(1.0f);
   for (std::size_t i = 0; i < goals.size(); ++i)
     reached.push_back(
         {{"wanted", goals[i].lux}, {"lux", static_cast<double>(luminance(meter.light().mixed(i, mix)))}});

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
+#include "move_options.h"
 #include "probe_report.h"
 #include "scene/daylight.h"
 
@@ -63,9 +64,9 @@ struct Measured {
   std::string how;
 };
 
-/// From the package where the plane or the probes were baked with it, else traced.
-Measured measure(const Probing& job, const Package& package, const View& view, ProbePoints& at,
-                 const Progress& progress) {
+/// From the package where the plane or the probes were baked with it and nothing has moved, else traced.
+Measured measure(const Probing& job, const Package& package, const View& home, const Rearrangement& now,
+                 ProbePoints& at, const Progress& progress) {
   const std::size_t groups = package.manifest().groups.size();
   const std::vector<MeasuredPlane> planes =
       job.plane.empty() ? std::vector<MeasuredPlane>() : baked_planes(package);
@@ -73,11 +74,12 @@ Measured measure(const Probing& job, const Package& package, const View& view, P
     if (baked.name != job.plane) continue;
     at.plane = baked.grid;
     at.points = baked.grid.points();
-    return {baked.light,
-            fmt::format("path tracing, all bounces, diffuse surfaces, baked with up to {} paths a point",
-                        baked.light.samples)};
+    if (!now.any())
+      return {baked.light,
+              fmt::format("path tracing, all bounces, diffuse surfaces, baked with up to {} paths a point",
+                          baked.light.samples)};
   }
-  at = find_points(job, view.world().bounds, planes);
+  if (!at.plane) at = find_points(job, home.world().bounds, planes);
   if (job.from_probes) {
     const std::optional<ProbeGrid> probes = read_probes(package);
     if (!probes) throw Error(job.input, "has no probes", "sconce bake --probes 1");
@@ -87,7 +89,7 @@ Measured measure(const Probing& job, const Package& package, const View& view, P
         light.values.push_back(facing(probes->at(p.position, g), p.shading_normal));
     return {std::move(light), fmt::format("between probes {:.3g} m apart", probes->spacing)};
   }
-  PointMeter meter(view, at.points, ReceiverKind::plane);
+  PointMeter meter = now.meter(at.points);
   meter.pass(job.samples, progress);
   return {meter.light(), fmt::format("path tracing, all bounces, diffuse surfaces, {} paths a point",
                                      meter.light().samples)};
@@ -150,6 +152,8 @@ void print(const ProbeReport& report, const Probing& job, const Options& options
 int run_probe(int argc, const char* const* argv) {
   Probing job;
   MixOptions settings;
+  settings.moves_lamps = true;
+  MoveOptions moves;
   Options options(
       "probe",
       "Lux at points or on a plane, of every light group and of their mix: all bounces, traced to the "
@@ -159,6 +163,7 @@ int run_probe(int argc, const char* const* argv) {
        "sconce fit {PACKAGE} --lux 1.2,0.9,0.5=500 -o desk.toml"});
   options.positional("PACKAGE", &job.input, "NAME.sconce");
   settings.declare(options);
+  moves.declare(options);
   options.option("--at", &job.points, "X,Y,Z[,NX,NY,NZ]: a point in metres, facing up unless told otherwise");
   options.option(
       "--points", &job.file,
@@ -194,15 +199,22 @@ int run_probe(int argc, const char* const* argv) {
   const Progress progress = make_progress(options);
   const Package package = settings.open(job.input);
   const std::vector<GroupInfo>& groups = package.manifest().groups;
-  const MixSpec mix = settings.make(settings.preset(), groups, progress);
+  const Preset preset = settings.preset();
+  MixSpec mix = settings.make(preset, groups, progress);
   const View view(package);
+  const Rearrangement now(moves, preset, package, view, progress);
+  if (now.any() && job.from_probes)
+    throw UsageError("option '--probes'", "probes know lamps and objects where they were baked",
+                     "--probes without --light, --move, --kind, --object");
   ProbeReport report;
   for (const GroupInfo& group : groups) report.groups.push_back(group.name);
-  const Measured measured = measure(job, package, view, report.at, progress);
+  if (!now.added().lights.empty()) report.groups.emplace_back(kAddedGroup), mix.weights.emplace_back(1.0f);
+  const Measured measured = measure(job, package, view, now, report.at, progress);
   fill_values(report, measured.light, mix, view.scene(), static_cast<float>(job.maintenance));
   report.assumptions = {{"package", fs::path(job.input).filename().string()},
                         {"settings", settings.settings.empty() ? "as baked" : join(settings.settings, " ")},
                         {"preset", settings.preset_file.empty() ? "none" : settings.preset_file},
+                        {"lamps and objects", now.any() ? moves.text() : "where they were baked"},
                         {"maintenance factor", fmt::format("{:.2f}", job.maintenance)},
                         {"calculation", measured.how},
                         {"plane", job.plane.empty() ? "none: single points" : job.plane}};

@@ -9,13 +9,12 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "mix_options.h"
+#include "move_options.h"
 #include "picture/gloss.h"
 #include "picture_options.h"
 #include "picture_output.h"
 #include "relight/package_operator.h"
 #include "relight/texel_light.h"
-#include "relight_lamps.h"
-#include "relight_objects.h"
 #include "relight_stage.h"
 #include "tone/apply.h"
 
@@ -64,8 +63,7 @@ int run_relight(int argc, const char* const* argv) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   std::string input, output;
-  LampWords words;
-  std::vector<std::string> objects;
+  MoveOptions moves;
   bool pixels = false;
   double cull = 0;
   MixOptions settings;
@@ -81,11 +79,7 @@ int run_relight(int argc, const char* const* argv) {
        "sconce view {PACKAGE}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   settings.declare(options);
-  words.declare(options);
-  options.option("--object", &objects,
-                 "NAME=X,Y,Z[,DEGREES]: the middle of an object (a node of the scene) goes there, turned "
-                 "as seen from above, its shadows and bounces follow; needs no operator in the package; may "
-                 "be given several times");
+  moves.declare(options, true);
   options.flag("--pixels", &pixels, "use the operator of --camera's pixels, not the lightmap's");
   picture.declare(options);
   options.option(
@@ -111,7 +105,7 @@ int run_relight(int argc, const char* const* argv) {
   device.check();
   if (!(cull >= 0 && cull <= 1)) throw UsageError("option '--cull'", fmt::format("{}", cull), "0 to 1");
   if (pixels && picture.camera.empty()) throw UsageError({}, "--pixels needs --camera");
-  if (pixels && !objects.empty()) throw UsageError({}, "--object needs the lightmap, not --pixels");
+  if (pixels && !moves.objects.empty()) throw UsageError({}, "--object needs the lightmap, not --pixels");
   if (pixels && !picture.size.empty()) throw UsageError({}, "--size is the operator's with --pixels");
   if (output.empty()) output = default_output(input, ".relit.png");
   check_output(output, {".png", ".exr"});
@@ -125,9 +119,8 @@ int run_relight(int argc, const char* const* argv) {
   Relit relit;
   {
     const Progress progress = make_progress(options);
-    std::vector<ObjectPlace> places;
-    for (const std::string& text : objects) places.push_back(parse_object(text));
-    const WantedLamps wanted = words.parse(preset, progress, places.empty());
+    const std::vector<ObjectPlace> places = moves.places();
+    const WantedLamps wanted = moves.lamps.parse(preset, progress, places.empty());
     const Package package = settings.open(input);
     const View home(package);
     const auto elsewhere =

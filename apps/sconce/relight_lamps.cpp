@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "import/lights.h"
-#include "lamp_kinds.h"
 #include "picture/seen.h"
 #include "picture_options.h"
 
@@ -77,14 +76,16 @@ std::vector<MovedGroup> without(std::vector<MovedGroup> groups, const Lamps& lam
 
 }  // namespace
 
-void LampWords::declare(Options& options) {
-  options.option(
-      "--light", &lights,
+void LampWords::declare(Options& options, bool relight) {
+  std::string light =
       "a lamp: point, spot, sun, area or projector, then keys as in a side file, for example "
       "spot,position=1,2,0,target=0,0,0,lumens=800; or luminaire,file=lamp.ldt,position=X,Y,Z: a measured "
-      "one; or group,name=G: the group by transfer instead of by its layer; or "
-      "shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; may be given "
-      "several times");
+      "one; ";
+  if (relight)
+    light +=
+        "or group,name=G: the group by transfer instead of by its layer; or "
+        "shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; ";
+  options.option("--light", &lights, light + "may be given several times");
   options.option("--lights", &file, "TOML file with [[light]] and [[luminaire]] tables");
   options.option(
       "--move", &moves,
@@ -130,13 +131,13 @@ WantedLamps LampWords::parse(const Preset& preset, const Progress& progress, boo
   return wanted;
 }
 
-RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps, bool whole,
-                       MixSpec& lightmap, const Progress& progress) {
-  RelitLamps out{wanted.more, wanted.shaders, {}, {}, {}};
-  std::vector<Id<LightGroup>> groups;
-  for (const std::string& name : wanted.groups) groups.push_back(find_group(scene, name));
-  std::vector<LampMove> leaving;
-  std::vector<std::size_t> others;
+OtherKind ChangedLamps::other(const Lamp& lamp, const Progress& progress) const {
+  const Vec3 at(move.motion * glm::vec4(place_of(lamp).value_or(Vec3(0)), 1));
+  return become(lamp, {at, target}, kind, "--kind " + name + "=" + kind, progress);
+}
+
+std::vector<ChangedLamps> changed_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps) {
+  std::vector<ChangedLamps> out;
   for (const LampChange& change : wanted.changes) {
     const std::string option(change.kind.empty() ? kMove : kKind);
     LampMove move = find_lamps(scene, lamps, change.name, option);
@@ -145,19 +146,29 @@ RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamp
       if (!change.kind.empty()) to.target.reset();  // what it becomes may point where it does not
       move.motion = motion_to(lamps, move.lamps, to, change.name, option);
     }
+    out.push_back({change.name, std::move(move), change.target, change.kind});
+  }
+  return out;
+}
+
+RelitLamps place_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps, bool whole,
+                       MixSpec& lightmap, const Progress& progress) {
+  RelitLamps out{wanted.more, wanted.shaders, {}, {}, {}};
+  std::vector<Id<LightGroup>> groups;
+  for (const std::string& name : wanted.groups) groups.push_back(find_group(scene, name));
+  std::vector<LampMove> leaving;
+  std::vector<std::size_t> others;
+  for (const ChangedLamps& change : changed_lamps(wanted, scene, lamps)) {
     if (change.kind.empty())
-      out.moves.push_back(move);
+      out.moves.push_back(change.move);
     else
-      for (const std::size_t i : move.lamps) {
+      for (const std::size_t i : change.move.lamps) {
         const Lamp& lamp = lamps.all()[i];
-        const LampPlace at{Vec3(move.motion * glm::vec4(place_of(lamp).value_or(Vec3(0)), 1)), change.target};
         others.push_back(i);
         const Rgb weight = weight_of(lightmap, lamp.group);
-        if (!weight.is_black())
-          add(become(lamp, at, change.kind, "--kind " + change.name + "=" + change.kind, progress), weight,
-              out.more, out.shaders);
+        if (!weight.is_black()) add(change.other(lamp, progress), weight, out.more, out.shaders);
       }
-    leaving.push_back(std::move(move));
+    leaving.push_back(change.move);
   }
   out.left = take_lamps(lamps, groups, leaving, whole, lightmap);
   out.shining = without(out.left, lamps, others);

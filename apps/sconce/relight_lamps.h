@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lamps that `sconce relight` is told of: new ones, and those of the package that go elsewhere or become
-// others.
+// The lamps that a command is told of: new ones, and those of the package that go elsewhere or become others.
 #pragma once
 
 #include "app.h"
-#include "gpu/lamp_shader.h"
+#include "lamp_kinds.h"
 #include "mix/preset.h"
-#include "relight/lamp_move.h"
-#include "scene/more_lights.h"
 
 namespace sconce::app {
 
@@ -31,14 +28,28 @@ struct LampWords {
   std::vector<std::string> lights, moves, kinds;
   std::string file;
 
-  void declare(Options& options);
+  /// @param relight  groups by transfer and light shaders, too
+  void declare(Options& options, bool relight);
   /// @param preset  whose lamps the words change further
   /// @param some    none at all is an error
   /// @throws UsageError; Error for files
   WantedLamps parse(const Preset& preset, const Progress& progress, bool some) const;
 };
 
-/// The same in the package's terms.
+/// A change in the package's terms.
+struct ChangedLamps {
+  std::string name;
+  LampMove move;
+  std::optional<Vec3> target;  ///< of what they become
+  std::string kind;            ///< "" = their own
+
+  /// What one of them becomes where it goes. @throws as become()
+  OtherKind other(const Lamp& lamp, const Progress& progress) const;
+};
+/// @throws UsageError: no such lamp
+std::vector<ChangedLamps> changed_lamps(const WantedLamps& wanted, const Scene& scene, const Lamps& lamps);
+
+/// All of it for a picture.
 struct RelitLamps {
   MoreLights more;
   std::vector<gpu::LampShader> shaders;

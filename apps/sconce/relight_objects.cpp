@@ -15,15 +15,14 @@ constexpr uint32_t kRays = 32;  // to each lamp from each texel
 constexpr double kMostDegrees = 360;
 constexpr const char* kOption = "option '--object'";
 
-/// Before an operator is made for them. @throws UsageError
+}  // namespace
+
 ObjectMoves moves_to(const View& home, const std::vector<ObjectPlace>& places) {
   ObjectMoves moves;
   for (const ObjectPlace& p : places)
     moves[p.name] = {p.middle - middle_of_object(home, p.name, kOption), p.turn};
   return moves;
 }
-
-}  // namespace
 
 ObjectPlace parse_object(const std::string& text) {
   const std::size_t equals = text.rfind('=');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of a package elsewhere, for `sconce relight --object`.
+// Objects of a package elsewhere, for `--object`.
 #pragma once
 
 #include "relight/moved_objects.h"
@@ -14,6 +14,9 @@ struct ObjectPlace {
 };
 /// `NAME=X,Y,Z[,DEGREES]`. @throws UsageError
 ObjectPlace parse_object(const std::string& text);
+
+/// Before an operator is made for them. @throws UsageError: no such object
+ObjectMoves moves_to(const View& home, const std::vector<ObjectPlace>& places);
 
 class ObjectsElsewhere {
  public:

@@ -30,9 +30,11 @@ void Viewer::measure() {
   measuring_.start([opened = state_.opened, view = &rays(), mover = state_.objects.mover, away,
                     lamps = state_.movers().standing(), points,
                     ends](const Progress& progress, const auto& publish) {
-    PointMeter meter = away ? PointMeter(std::make_shared<StandingScene>(view->scene(), view->world(), lamps),
-                                         points, ReceiverKind::plane)
-                            : PointMeter(*view, points, ReceiverKind::plane);
+    PointMeter meter =
+        away
+            ? PointMeter(std::make_shared<StandingScene>(standing_scene(view->scene(), view->world(), lamps)),
+                         points, ReceiverKind::plane)
+            : PointMeter(*view, points, ReceiverKind::plane);
     for (int samples = 64; samples <= 2048; samples *= 2) {
       meter.pass(samples, progress);
       std::vector<MeasuredLight> parts;
@@ -94,7 +96,7 @@ void Viewer::show_plane(const MeasuredPlane& baked) {
 std::string Viewer::unmeasured() const {
   if (!state_.lamps.mover) return {};
   for (const StandingLamp& one : state_.lamps.mover->standing())
-    if (!one.state.kind.empty() && !one.other)
+    if (!one.itself && !one.other)
       return "without " + state_.lamps.mover->movable().names[one.lamp] + ", which is a shader";
   return {};
 }

@@ -113,11 +113,12 @@ std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& f
   return make_mix(groups, unit).weights;
 }
 
-void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target) {
+void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target,
+              double given) {
   std::vector<double> row;
   for (std::size_t g = 0; g < unit.size(); ++g)
     row.push_back(static_cast<double>(luminance(unit[g] * lux[g])));
-  wishes.add(row, target, 1 / std::max(target * target, 1.0));
+  wishes.add(row, target - given, 1 / std::max(target * target, 1.0));
 }
 
 Image fit_sized(const Image& image) {

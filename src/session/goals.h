@@ -16,7 +16,9 @@ std::vector<Rgb> unit_weights(std::span<const GroupInfo> groups, const Faders& f
 /// One number wished for at a point; differences count relative to it.
 /// @param lux   of each group there, RGB at unit weight
 /// @param unit  unit_weights()
-void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target);
+/// @param given  lux that are there whatever the gains
+void wish_lux(Wishes& wishes, std::span<const Rgb> lux, std::span<const Rgb> unit, double target,
+              double given = 0);
 
 /// A picture wished for; every pixel counts relative to its own luminance and the picture's mean.
 /// @param parts     pictures of every group alone at unit weight, as large as `wanted`

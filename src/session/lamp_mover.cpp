@@ -32,10 +32,14 @@ Movable::Movable(std::shared_ptr<const Opened> opened_, const View& view_, const
       lamps(view.scene(), view.world()),
       names(lamp_names(lamps)) {}
 
+Mat4 Movable::motion(std::size_t lamp, const MovedLamp& to) const {
+  return motion_to(lamps, {&lamp, 1}, {to.at, to.target}, names[lamp], "target");
+}
+
 MovedLamps Movable::alone(std::size_t lamp, const std::optional<MovedLamp>& to) const {
   const Lamp& shape = lamps.all()[lamp];
   LampMove move{{lamp}, {shape.group}, Mat4(1.0f)};
-  if (to) move.motion = motion_to(lamps, move.lamps, {to->at, to->target}, names[lamp], "target");
+  if (to) move.motion = motion(lamp, *to);
   const MovedGroup group{shape.group, Rgb(1), {lamp}};
   return MovedLamps(view.scene(), view.world(), view.tracer(), {}, {&group, 1},
                     {&move, to ? std::size_t{1} : 0});
@@ -140,7 +144,11 @@ void LampMover::refine(const Fine& fine) {
 std::vector<StandingLamp> LampMover::standing() const {
   std::vector<StandingLamp> out;
   for (const auto& [lamp, entry] : moved_)
-    if (entry.now.state) out.push_back({lamp, *entry.now.state, entry.now.other});
+    if (entry.now.state) {
+      const bool itself = entry.now.state->kind.empty();
+      out.push_back(
+          {lamp, itself ? movable_->motion(lamp, *entry.now.state) : Mat4(1.0f), itself, entry.now.other});
+    }
   return out;
 }
 

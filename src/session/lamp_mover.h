@@ -26,6 +26,8 @@ struct Movable {
   Movable(const Movable&) = delete;
   Movable& operator=(const Movable&) = delete;
 
+  /// Its way from where it was baked. @throws UsageError: a target for what points nowhere
+  Mat4 motion(std::size_t lamp, const MovedLamp& to) const;
   /// A lamp alone, at unit weight.
   /// @param to  where it is; none: where it was baked
   /// @throws UsageError: a target for what points nowhere

@@ -56,16 +56,17 @@ TEST_F(Measured, InverseSquare) {
 TEST_F(Measured, LampsAreMeasuredWhereTheyStand) {
   const auto opened = open(2);
   const auto lux = [&](const StandingLamp& lamp) {
-    const auto scene = std::make_shared<const StandingScene>(opened->rays.scene(), opened->rays.world(),
-                                                             std::span(&lamp, 1));
+    const auto scene = std::make_shared<const StandingScene>(
+        standing_scene(opened->rays.scene(), opened->rays.world(), std::span(&lamp, 1)));
     PointMeter meter(scene, {{{0, 0, 0.3f}, {0, 0, 1}, {0, 0, 1}}}, ReceiverKind::plane);
     meter.pass(16, {});
     EXPECT_EQ(meter.light().mixed(0, {{Rgb(0), Rgb(1)}}).r, 0);
     return lux_of(meter.light(), {{Rgb(1), Rgb(0)}})[0];
   };
-  StandingLamp lamp{0, {{0, 0, 0.8f}}};
+  StandingLamp lamp;
+  lamp.motion[3] = {0, 0, -0.2f, 1};
   EXPECT_NEAR(lux(lamp), 100 / 0.25, 0.05);
-  lamp.state.kind = "point";
+  lamp.itself = false;
   EXPECT_EQ(lux(lamp), 0);
   Light other;
   other.frame[3] = {0, 0, 0.8f, 1};

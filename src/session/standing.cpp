@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "relight/lamp_move.h"
-
 namespace sconce {
 
 namespace {
@@ -20,19 +18,19 @@ void put_out(Scene& scene, Instance& instance) {
   instance.mesh = Id<Mesh>(scene.meshes.size() - 1);
 }
 
-Scene moved(const Scene& from, const World& world, std::span<const StandingLamp> standing) {
+}  // namespace
+
+Scene standing_scene(const Scene& from, const World& world, std::span<const StandingLamp> lamps) {
   Scene scene = from;
-  const Lamps lamps(from, world);
-  const std::vector<std::string> names = lamp_names(lamps);
-  for (const StandingLamp& one : standing) {
-    const Lamp& lamp = lamps.all()[one.lamp];
+  const Lamps home(from, world);
+  for (const StandingLamp& one : lamps) {
+    const Lamp& lamp = home.all()[one.lamp];
     const auto* mesh = std::get_if<MeshLamp>(&lamp.shape);
     Instance* instance =
         mesh != nullptr ? &scene.instances[world.instances[mesh->first_triangle].value] : nullptr;
-    if (one.state.kind.empty()) {
+    if (one.itself) {
       Mat4& frame = instance != nullptr ? instance->transform : scene.lights[one.lamp].frame;
-      const std::size_t some[] = {one.lamp};
-      frame = motion_to(lamps, some, {one.state.at, one.state.target}, names[one.lamp], "target") * frame;
+      frame = one.motion * frame;
       continue;
     }
     if (instance != nullptr)
@@ -48,9 +46,13 @@ Scene moved(const Scene& from, const World& world, std::span<const StandingLamp>
   return scene;
 }
 
-}  // namespace
+void add_group(Scene& scene, const std::string& name, MoreLights lights) {
+  scene.groups.push_back({name});
+  for (Light& light : lights.lights) light.group = Id<LightGroup>(scene.groups.size() - 1);
+  append(scene, std::move(lights));
+}
 
-StandingScene::StandingScene(const Scene& scene, const World& world, std::span<const StandingLamp> lamps)
-    : scene_(moved(scene, world, lamps)), world_(make_world(scene_)), tracer_(scene_, world_) {}
+StandingScene::StandingScene(Scene scene)
+    : scene_(std::move(scene)), world_(make_world(scene_)), tracer_(scene_, world_) {}
 
 }  // namespace sconce

@@ -7,23 +7,30 @@
 
 #include "light/lamp.h"
 #include "scene/more_lights.h"
-#include "session/session.h"
 #include "trace/tracer.h"
 
 namespace sconce {
 
 /// A lamp that is not as it was baked.
 struct StandingLamp {
-  std::size_t lamp = 0;  ///< of Lamps::all()
-  MovedLamp state;
-  std::optional<MoreLights> other{};  ///< in its stead; none: the lamp itself where its kind is its own, else
-                                      ///< nothing that rays know (a shader): it is left out
+  std::size_t lamp = 0;               ///< of Lamps::all()
+  Mat4 motion{1.0f};                  ///< that it goes by, rigid
+  bool itself = true;                 ///< else it is put out
+  std::optional<MoreLights> other{};  ///< in the stead of one that is put out, of its group; none: nothing
+                                      ///< that rays know (a shader)
 };
 
+/// The scene with lamps as they stand: bodies of luminous meshes go along. Its groups are the same.
+/// @param from, world  with objects where they are
+Scene standing_scene(const Scene& from, const World& world, std::span<const StandingLamp> lamps);
+
+/// Puts lights into a group that is new and the last.
+void add_group(Scene& scene, const std::string& name, MoreLights lights);
+
+/// Ready for rays.
 class StandingScene {
  public:
-  /// @param scene, world  with objects where they are @throws UsageError: a target for what points nowhere
-  StandingScene(const Scene& scene, const World& world, std::span<const StandingLamp> lamps);
+  explicit StandingScene(Scene scene);
   StandingScene(const StandingScene&) = delete;
   StandingScene& operator=(const StandingScene&) = delete;
 
