@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/files.h"
+#include "core/text.h"
 #include "image/io.h"
 #include "relit_room.h"
 
@@ -88,6 +90,40 @@ TEST_F(RelightByOpenGl, AProjectorThrowsItsSlide) {
   EXPECT_GT(left.r, 5 * left.b);
   EXPECT_GT(right.b, 5 * right.r);
   EXPECT_NEAR(left.r, 0.7f * kInvPi * 100 / (1.9f * 1.9f), 1.0f);
+}
+
+// Lux by a shader, direct by its shadow maps and gathered from the lightmap, is that of paths from the same
+// lamp: on a table, behind the block, and above the lamp, where all light is reflected. There texels count,
+// which are 6 cm wide and dark behind the lamps of the ceiling.
+TEST_F(RelightByOpenGl, MetersKnowShaders) {
+  const auto lux = [&](const Names& more) {
+    Names words{"probe", room().package, "--json", "--samples", "4096", "right=off"};
+    words.insert(words.end(), more.begin(), more.end());
+    for (const char* at : {"0,0.8,0.3", "0.9,0.2,-0.35", "0.2,1.8,0.1"})
+      words.insert(words.end(), {"--at", at});
+    words.insert(words.end(), {"-o", file("lux.csv")});
+    const test::Outcome probed = test::run_sconce(words);
+    EXPECT_EQ(probed.code, 0) << probed.err;
+    std::vector<double> out;
+    const Names lines = split(read_file(file("lux.csv")), '\n');
+    for (std::size_t i = 1; i < 4; ++i) out.push_back(parse_number(split(lines.at(i), ',').at(6)).value());
+    return out;
+  };
+  const auto expect_same = [&](const std::string& option, const std::string& words, const Names& more) {
+    const auto of = [&](const std::string& kind) {
+      const std::size_t at = words.find("LAMP");
+      Names all{option, words.substr(0, at) + kind + words.substr(at + 4)};
+      all.insert(all.end(), more.begin(), more.end());
+      return lux(all);
+    };
+    const std::vector<double> shader = of("shader,file=" + example("point.glsl")), rays = of("point");
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      EXPECT_NEAR(shader[i], rays[i], (i < 2 ? 0.02 : 0.04) * rays[i]) << words << i;
+  };
+  const std::string there = "LAMP,position=-0.3,1.5,0.2,intensity=30";
+  expect_same("--light", there, {"left=off"});
+  expect_same("--kind", "lamp left=LAMP,intensity=12", {"left=0.5", "--move", "lamp left=-0.3,1.5,0.2"});
+  expect_same("--light", there, {"left=off", "--object", "block=-0.4,0.4,-0.3,30"});
 }
 
 TEST_F(RelightByOpenGl, BadInputIsOneLine) {

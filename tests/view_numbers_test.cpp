@@ -108,6 +108,34 @@ TEST_F(ViewTest, FiguresFollowMovedLamps) {
   EXPECT_NEAR(average("back.csv", 2), average("home.csv", 2), 0.1);
 }
 
+// A lamp that became a shader counts, as paths from the same lamp do and the command has it.
+TEST_F(ViewTest, FiguresKnowShaders) {
+  bake_movable();
+  const std::string shader =
+      "shader,intensity=12,file=" + (fs::path(SCONCE_SOURCE_DIR) / "examples/lights/point.glsl").string();
+  const auto outcome = view(
+      "set right=0.5\nplane 0.9 0.4\nwish 0.2,0.8,0.3 300\nlamp \"lamp left\" 0,1.4,0.2\n"
+      "kind \"lamp left\" " +
+      shader + "\nsettle\nfigures " + path("shader.csv") + "\nmove 300,300\nframes 3\nscreenshot " +
+      path("all.png") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = split(read_file(path("shader.csv")), '\n');
+  const auto probed = [&](const std::string& kind, std::vector<std::string> words) {
+    words.insert(words.begin(), {"probe", path("x.sconce"), "right=0.5", "--json", "--move",
+                                 "lamp left=0,1.4,0.2", "--kind", "lamp left=" + kind});
+    const auto probe = test::run_sconce(words);
+    EXPECT_EQ(probe.code, 0) << probe.err;
+    return nlohmann::json::parse(probe.out)["lux"]["average"].get<double>();
+  };
+  std::size_t row = 1;
+  for (const std::vector<std::string>& at :
+       {std::vector<std::string>{"--plane", "floor+0.9", "--grid", "0.4"}, {"--at", "0.2,0.8,0.3"}}) {
+    const double figure = parse_number(split(lines.at(row++), ',').at(3)).value();
+    EXPECT_NEAR(figure, probed("point,intensity=12", at), 0.02 * figure) << row;
+    EXPECT_NEAR(figure, probed(shader, at), 0.01 * figure) << row;
+  }
+}
+
 // The middle of a ball right before the camera faces it: 0.8 E / pi of the probes around, as it is exposed.
 TEST_F(ViewTest, ABallTakesTheMixFromProbes) {
   folder_.write("room.glb", write_glb(test::two_lamp_room(), "test"));

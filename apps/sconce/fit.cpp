@@ -103,7 +103,7 @@ int run_fit(int argc, const char* const* argv) {
   std::vector<SurfacePoint> places;
   for (const PointGoal& goal : goals) places.push_back(goal.at);
   const Rearrangement now(moves, start, package, view, progress);
-  PointMeter meter = now.meter(places);
+  PointMeter meter = now.meter(places, progress);
   if (!places.empty()) meter.pass(kPaths, progress);
   const auto lux_at = [&](std::size_t i) {
     const std::size_t all = meter.light().groups;
@@ -136,7 +136,7 @@ int run_fit(int argc, const char* const* argv) {
   nlohmann::ordered_json reached = nlohmann::ordered_json::array();
   for (std::size_t g = 0; g < groups.size(); ++g) lumens += groups[g].lumens * found.gains[g];
   MixSpec mix = make_mix(groups, faders);
-  if (!now.added().lights.empty()) mix.weights.emplace_back(1.0f);
+  if (now.adds()) mix.weights.emplace_back(1.0f);
   for (std::size_t i = 0; i < goals.size(); ++i)
     reached.push_back(
         {{"wanted", goals[i].lux}, {"lux", static_cast<double>(luminance(meter.light().mixed(i, mix)))}});

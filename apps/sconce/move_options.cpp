@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "move_options.h"
 
-#include "core/error.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "core/text.h"
+#include "gpu/lamp_light.h"
+#include "relight/package_operator.h"
+#include "stage.h"
 
 namespace sconce::app {
 
@@ -46,37 +52,73 @@ std::string MoveOptions::text() const {
 
 Rearrangement::Rearrangement(const MoveOptions& options, const Preset& preset, const Package& package,
                              const View& home, const Progress& progress)
-    : home_(home) {
-  const WantedLamps wanted = options.lamps.parse(preset, progress, false);
+    : package_(package), home_(home) {
+  WantedLamps wanted = options.lamps.parse(preset, progress, false);
   if (const std::vector<ObjectPlace> places = options.places(); !places.empty()) {
+    objects_ = moves_to(home, places);
     moved_ = std::make_unique<View>(package, home.shown());
-    moved_->place(ObjectPlaces(home.scene(), home.world()), moves_to(home, places));
+    moved_->place(ObjectPlaces(home.scene(), home.world()), objects_);
   }
   const Lamps own(view().scene(), view().world());
-  bool shaders = !wanted.shaders.empty();
   const std::vector<std::string> names = lamp_names(own);
   for (const ChangedLamps& change : changed_lamps(wanted, view().scene(), own))
     for (const std::size_t i : change.move.lamps) {
-      preset_lamps_.push_back(preset_lamp(own.all()[i], names[i], change));
-      StandingLamp lamp{i, change.move.motion, change.kind.empty(), {}};
-      if (!lamp.itself) {
-        OtherKind other = change.other(own.all()[i], progress);
+      const Lamp& lamp = own.all()[i];
+      preset_lamps_.push_back(preset_lamp(lamp, names[i], change));
+      StandingLamp standing{i, change.move.motion, change.kind.empty(), {}};
+      if (!standing.itself) {
+        OtherKind other = change.other(lamp, progress);
         if (auto* lights = std::get_if<MoreLights>(&other))
-          lamp.other = std::move(*lights);
+          standing.other = std::move(*lights);
         else
-          shaders = true;
+          shaders_.push_back({lamp.group.value, std::move(std::get<gpu::LampShader>(other))});
       }
-      lamps_.push_back(std::move(lamp));
+      lamps_.push_back(std::move(standing));
     }
-  if (shaders) throw UsageError({}, "rays know no light shaders", "sconce relight");
-  added_ = wanted.more;
+  added_ = std::move(wanted.more);
+  for (gpu::LampShader& shader : wanted.shaders)
+    shaders_.push_back({package.manifest().groups.size(), std::move(shader)});
 }
 
-PointMeter Rearrangement::meter(std::vector<SurfacePoint> points) const {
+bool Rearrangement::adds() const {
+  return !added_.lights.empty() || std::any_of(shaders_.begin(), shaders_.end(), [&](const Shader& shader) {
+    return shader.group == package_.manifest().groups.size();
+  });
+}
+
+PointMeter Rearrangement::meter(std::vector<SurfacePoint> points, const Progress& progress) const {
   if (!any()) return {home_, std::move(points), ReceiverKind::plane};
+  std::vector<KnownLamp> lamps = known(points, progress);
   Scene all = scene();
-  if (!added_.lights.empty()) add_group(all, kAddedGroup, added_);
-  return {std::make_shared<StandingScene>(std::move(all)), std::move(points), ReceiverKind::plane};
+  if (adds()) add_group(all, kAddedGroup, added_);
+  PointMeter meter(std::make_shared<StandingScene>(std::move(all)), std::move(points), ReceiverKind::plane);
+  meter.add(view(), std::move(lamps));
+  return meter;
+}
+
+std::vector<KnownLamp> Rearrangement::known(std::span<const SurfacePoint> points,
+                                            const Progress& progress) const {
+  std::vector<KnownLamp> out;
+  if (shaders_.empty() || points.empty()) return out;
+  ObjectBounces bounces;
+  if (moved_) {
+    bounces = ObjectFollower(package_, home_, progress).follow(objects_, progress);
+  } else {
+    bounces.op = std::make_shared<const Operator>(find_operator(package_, ""));
+    bounces.folded = std::make_shared<const FoldedBounces>(*bounces.op);
+  }
+  const Atlas atlas = package_atlas(package_, view());
+  const auto context = open_context("gl");
+  const gpu::Geometry geometry(*context, view().shown(), false);
+  for (const Shader& shader : shaders_) {
+    gpu::LampLight light(*context, geometry, view().world().bounds, shader.lamp);
+    KnownLamp& lamp = out.emplace_back(KnownLamp{shader.group, light.at(points), {}});
+    if (const gpu::Mishap mishap = light.mishap(); mishap.count > 0)
+      progress.warn(fmt::format("{}: NaN or infinity at {} of {} points (first: {}), dark there",
+                                shader.lamp.file, mishap.count, points.size(), mishap.first));
+    lamp.pages = to_pages(atlas, *bounces.op, light.on_receivers(*bounces.op, *bounces.folded));
+  }
+  return out;
 }
 
 }  // namespace sconce::app

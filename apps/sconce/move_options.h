@@ -32,24 +32,38 @@ class Rearrangement {
                 const Progress& progress);
 
   /// Whether anything is not as it was baked.
-  bool any() const { return moved_ || !lamps_.empty() || !added_.lights.empty(); }
+  bool any() const { return moved_ || !lamps_.empty() || adds(); }
   /// Objects where they are.
   const View& view() const { return moved_ ? *moved_ : home_; }
-  /// Lamps that belong to none of the package's groups.
+  /// Lamps that belong to none of the package's groups, and whether there are some.
   const MoreLights& added() const { return added_; }
-  /// All but those.
+  bool adds() const;
+  /// Lamps that rays do not know.
+  struct Shader {
+    std::size_t group;  ///< beyond the package's: none of them
+    gpu::LampShader lamp;
+  };
+  const std::vector<Shader>& shaders() const { return shaders_; }
+  /// All but those, and but light shaders.
   Scene scene() const { return standing_scene(view().scene(), view().world(), lamps_); }
-  /// Of all of it, the window's; lamps of `added()` are one more group, the last.
-  PointMeter meter(std::vector<SurfacePoint> points) const;
+  /// Of all of it, the window's; lamps that are added are one more group, the last. Shaders need OpenGL, and
+  /// an operator: the package's, or with objects elsewhere one that is made here.
+  /// @throws Error where there is none; what is wrong with a shader
+  PointMeter meter(std::vector<SurfacePoint> points, const Progress& progress) const;
   /// Each lamp that is not as it was baked, for a preset; those that were added are none of it.
   const std::vector<PresetLamp>& preset_lamps() const { return preset_lamps_; }
 
  private:
+  std::vector<KnownLamp> known(std::span<const SurfacePoint> points, const Progress& progress) const;
+
+  const Package& package_;
   const View& home_;
+  ObjectMoves objects_;
   std::unique_ptr<View> moved_;  ///< null where objects stay
   std::vector<StandingLamp> lamps_;
   std::vector<PresetLamp> preset_lamps_;
   MoreLights added_;
+  std::vector<Shader> shaders_;
 };
 
 /// The group of the lamps that are added, where there are some.

@@ -89,7 +89,7 @@ Measured measure(const Probing& job, const Package& package, const View& home, c
         light.values.push_back(facing(probes->at(p.position, g), p.shading_normal));
     return {std::move(light), fmt::format("between probes {:.3g} m apart", probes->spacing)};
   }
-  PointMeter meter = now.meter(at.points);
+  PointMeter meter = now.meter(at.points, progress);
   meter.pass(job.samples, progress);
   return {meter.light(), fmt::format("path tracing, all bounces, diffuse surfaces, {} paths a point",
                                      meter.light().samples)};
@@ -208,7 +208,7 @@ int run_probe(int argc, const char* const* argv) {
                      "--probes without --light, --move, --kind, --object");
   ProbeReport report;
   for (const GroupInfo& group : groups) report.groups.push_back(group.name);
-  if (!now.added().lights.empty()) report.groups.emplace_back(kAddedGroup), mix.weights.emplace_back(1.0f);
+  if (now.adds()) report.groups.emplace_back(kAddedGroup), mix.weights.emplace_back(1.0f);
   const Measured measured = measure(job, package, view, now, report.at, progress);
   fill_values(report, measured.light, mix, view.scene(), static_cast<float>(job.maintenance));
   report.assumptions = {{"package", fs::path(job.input).filename().string()},

@@ -77,15 +77,16 @@ std::vector<MovedGroup> without(std::vector<MovedGroup> groups, const Lamps& lam
 }  // namespace
 
 void LampWords::declare(Options& options, bool relight) {
-  std::string light =
+  const std::string by_transfer =
+      relight ? "or group,name=G: the group by transfer instead of by its layer; " : "";
+  options.option(
+      "--light", &lights,
       "a lamp: point, spot, sun, area or projector, then keys as in a side file, for example "
       "spot,position=1,2,0,target=0,0,0,lumens=800; or luminaire,file=lamp.ldt,position=X,Y,Z: a measured "
-      "one; ";
-  if (relight)
-    light +=
-        "or group,name=G: the group by transfer instead of by its layer; or "
-        "shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; ";
-  options.option("--light", &lights, light + "may be given several times");
+      "one; " +
+          by_transfer +
+          "or shader,file=F.glsl,position=X,Y,Z,UNIFORM=VALUE,...: a light of your own, by OpenGL; may be "
+          "given several times");
   options.option("--lights", &file, "TOML file with [[light]] and [[luminaire]] tables");
   options.option(
       "--move", &moves,

@@ -28,7 +28,7 @@ struct LampWords {
   std::vector<std::string> lights, moves, kinds;
   std::string file;
 
-  /// @param relight  groups by transfer and light shaders, too
+  /// @param relight  groups by transfer, too
   void declare(Options& options, bool relight);
   /// @param preset  whose lamps the words change further
   /// @param some    none at all is an error

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "gpu/direct_light.h"
+#include "gpu/lamp_light.h"
 #include "viewer/viewer.h"
 #include "viewer/widgets.h"
 
@@ -24,29 +24,6 @@ std::string file_of(const std::string& kind) {
   if (at == std::string::npos) return {};
   const std::size_t begin = at + kFile.size();
   return kind.substr(begin, kind.find(',', begin) - begin);
-}
-
-/// Its light on texels, direct by shadow maps, lux.
-std::vector<Rgb> light_of(const gpu::Context& context, const gpu::Geometry& geometry, const Movable& movable,
-                          const gpu::LampShader& lamp) {
-  const Operator& op = movable.op;
-  gpu::DirectLight direct(context, geometry, movable.view.world().bounds, {lamp});
-  const auto lit = [&](std::span<const OperatorPoint> points, uint32_t slots, uint32_t each) {
-    const gpu::Buffer places(context, points, "points of the lightmap");
-    const gpu::Buffer light(context, slots * sizeof(Rgbx), nullptr, "light of a lamp");
-    direct.light_cloud(places, slots, each, light);
-    std::vector<Rgbx> out(slots);
-    light.read(slots * sizeof(Rgbx), out.data());
-    return out;
-  };
-  std::vector<OperatorPoint> texels(op.receivers.begin(), op.receivers.end());
-  for (OperatorPoint& texel : texels) texel.albedo = pack_albedo(Rgb(1));
-  const std::vector<Rgbx> seen = lit(texels, static_cast<uint32_t>(texels.size()), 1);
-  std::vector<Rgbx> cloud = lit(op.lit, op.slots(), op.points_per_slot);
-  std::vector<Rgb> light(seen.size());
-  movable.bounces->indirect(cloud, light);
-  for (std::size_t i = 0; i < light.size(); ++i) light[i] += Rgb(seen[i][0], seen[i][1], seen[i][2]);
-  return light;
 }
 
 }  // namespace
@@ -68,7 +45,11 @@ OtherLamp Viewer::other_lamp(std::size_t lamp, const MovedLamp& state) {
     state_.lamps.files[file] = fs::last_write_time(file, ignored);
   }
   if (auto* lights = std::get_if<MoreLights>(&made)) return std::move(*lights);
-  return light_of(window_.context(), state_.canvas->geometry(), movable, std::get<gpu::LampShader>(made));
+  const auto light = std::make_shared<gpu::LampLight>(window_.context(), state_.canvas->geometry(),
+                                                      movable.view.world().bounds,
+                                                      std::move(std::get<gpu::LampShader>(made)));
+  return PrelitLamp{light->on_receivers(movable.op, *movable.bounces),
+                    [light](std::span<const SurfacePoint> points) { return light->at(points); }};
 }
 
 void Viewer::watch_lamp_files() {

@@ -28,13 +28,14 @@ void Viewer::measure() {
   }
   if (points.empty()) return measuring_.stop();
   measuring_.start([opened = state_.opened, view = &rays(), mover = state_.objects.mover, away,
-                    lamps = state_.movers().standing(), points,
+                    lamps = state_.movers().standing(), known = state_.movers().known(points), points,
                     ends](const Progress& progress, const auto& publish) {
     PointMeter meter =
         away
             ? PointMeter(std::make_shared<StandingScene>(standing_scene(view->scene(), view->world(), lamps)),
                          points, ReceiverKind::plane)
             : PointMeter(*view, points, ReceiverKind::plane);
+    meter.add(*view, known);
     for (int samples = 64; samples <= 2048; samples *= 2) {
       meter.pass(samples, progress);
       std::vector<MeasuredLight> parts;
@@ -91,14 +92,6 @@ void Viewer::show_plane() {
 void Viewer::show_plane(const MeasuredPlane& baked) {
   state_.plane.shown = true;
   state_.plane.measured = baked;
-}
-
-std::string Viewer::unmeasured() const {
-  if (!state_.lamps.mover) return {};
-  for (const StandingLamp& one : state_.lamps.mover->standing())
-    if (!one.itself && !one.other)
-      return "without " + state_.lamps.mover->movable().names[one.lamp] + ", which is a shader";
-  return {};
 }
 
 void Viewer::write_figures(const fs::path& file) const {

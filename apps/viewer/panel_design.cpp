@@ -30,12 +30,8 @@ void figure(const char* label, const std::string& value, bool first) {
 /// How far figures know what was moved.
 void Viewer::standing_line() {
   if (!state_.away()) return;
-  const std::string without = unmeasured();
   ImGui::PushFont(fonts().small);
-  if (measuring_.running())
-    ImGui::TextDisabled("measuring all as it stands now");
-  else if (!without.empty())
-    ImGui::TextColored(kWarning, "%s", without.c_str());
+  if (measuring_.running()) ImGui::TextDisabled("measuring all as it stands now");
   ImGui::PopFont();
 }
 

@@ -181,8 +181,6 @@ class Viewer {
   /// One that is traced.
   void show_plane();
   void show_plane(const MeasuredPlane& baked);
-  /// What meters cannot know of what is seen; "" = nothing.
-  std::string unmeasured() const;
   /// Figures of all planes as mixed, a line each, with a head. @throws Error
   void write_figures(const std::filesystem::path& file) const;
   /// @throws Error where the package has no probes

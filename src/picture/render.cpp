@@ -23,15 +23,6 @@ constexpr float kSharp = 0.05f;  // roughness
 constexpr uint32_t kLobeRays = 4;
 constexpr int kMostPanes = 64;  // in a row; those behind are opaque
 
-/// Bilinear between texel centres, clamped at the page's edges.
-Rgb bilinear(const Image& page, Vec2 uv) {
-  const TexelPlace x(uv.x, page.width), y(uv.y, page.height);
-  const int x1 = std::min(x.low + 1, page.width - 1), y1 = std::min(y.low + 1, page.height - 1);
-  const Rgb top = (1 - x.fraction) * page.rgb_at(x.low, y.low) + x.fraction * page.rgb_at(x1, y.low);
-  const Rgb bottom = (1 - x.fraction) * page.rgb_at(x.low, y1) + x.fraction * page.rgb_at(x1, y1);
-  return (1 - y.fraction) * top + y.fraction * bottom;
-}
-
 }  // namespace
 
 Rgb View::illuminance(const Hit& hit, const Mixed& mix) const {

@@ -33,6 +33,15 @@ struct TexelPlace {
   }
 };
 
+/// Bilinear between texel centres, clamped at the page's edges.
+inline Rgb bilinear(const Image& page, Vec2 uv) {
+  const TexelPlace x(uv.x, page.width), y(uv.y, page.height);
+  const int x1 = std::min(x.low + 1, page.width - 1), y1 = std::min(y.low + 1, page.height - 1);
+  const Rgb top = (1 - x.fraction) * page.rgb_at(x.low, y.low) + x.fraction * page.rgb_at(x1, y.low);
+  const Rgb bottom = (1 - x.fraction) * page.rgb_at(x.low, y1) + x.fraction * page.rgb_at(x1, y1);
+  return (1 - y.fraction) * top + y.fraction * bottom;
+}
+
 /// Weight 1 where a light belongs to no group.
 inline Rgb weight_of(const MixSpec& mix, Id<LightGroup> group) {
   return group.valid() ? mix.weights[group.value] : Rgb(1);

@@ -147,6 +147,12 @@ void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> l
   add_to_pages(atlas, op.places, light, pages);
 }
 
+std::vector<Image> to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light) {
+  std::vector<Image> pages(static_cast<std::size_t>(atlas.pages), Image::rgb(atlas.width, atlas.height));
+  add_to_pages(atlas, op, light, pages);
+  return pages;
+}
+
 void add_to_pages(const Atlas& atlas, std::span<const uint32_t> places, std::span<const Rgb> light,
                   std::vector<Image>& pages) {
   const std::size_t page_size =

@@ -63,6 +63,9 @@ void add_to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> l
 void add_to_pages(const Atlas& atlas, std::span<const uint32_t> places, std::span<const Rgb> light,
                   std::vector<Image>& pages);
 
+/// That light alone: pages of a lightmap, lux.
+std::vector<Image> to_pages(const Atlas& atlas, const Operator& op, std::span<const Rgb> light);
+
 /// What the middles of pixels see; pixels that see nothing or a black back are none.
 RelightReceivers pixel_receivers(const TracedScene& traced, const Camera& camera, int width, int height);
 

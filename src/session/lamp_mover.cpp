@@ -107,8 +107,8 @@ LampMover::Lit LampMover::lit(std::size_t lamp, const MovedLamp& state) const {
     return made;
   }
   OtherLamp other = other_(lamp, state);
-  if (auto* light = std::get_if<std::vector<Rgb>>(&other)) {
-    made.light = std::move(*light), made.fine = true;
+  if (auto* prelit = std::get_if<PrelitLamp>(&other)) {
+    made.light = std::move(prelit->light), made.direct = std::move(prelit->direct), made.fine = true;
     return made;
   }
   made.other = std::get<MoreLights>(std::move(other));
@@ -149,6 +149,15 @@ std::vector<StandingLamp> LampMover::standing() const {
       out.push_back(
           {lamp, itself ? movable_->motion(lamp, *entry.now.state) : Mat4(1.0f), itself, entry.now.other});
     }
+  return out;
+}
+
+std::vector<KnownLamp> LampMover::known(std::span<const SurfacePoint> points) const {
+  std::vector<KnownLamp> out;
+  for (const auto& [lamp, entry] : moved_)
+    if (entry.now.direct)
+      out.push_back({movable_->lamps.all()[lamp].group.value, entry.now.direct(points),
+                     to_pages(movable_->atlas, movable_->op, entry.now.light)});
   return out;
 }
 

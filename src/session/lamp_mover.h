@@ -11,6 +11,7 @@
 #include "relight/texel_light.h"
 #include "session/opened.h"
 #include "session/session.h"
+#include "session/standing.h"
 
 namespace sconce {
 
@@ -48,8 +49,13 @@ struct Movable {
   std::vector<std::string> names;  ///< of each lamp, its own
 };
 
-/// What a lamp has become: one that rays know, or its light on the operator's texels, lux, at unit weight.
-using OtherLamp = std::variant<MoreLights, std::vector<Rgb>>;
+/// A lamp that rays do not know, at unit weight.
+struct PrelitLamp {
+  std::vector<Rgb> light;                                                 ///< on the operator's texels, lux
+  std::function<std::vector<Rgb>(std::span<const SurfacePoint>)> direct;  ///< at points, lux
+};
+/// What a lamp has become.
+using OtherLamp = std::variant<MoreLights, PrelitLamp>;
 
 /// The lamps that a preset can move; none where the package has no operator.
 std::vector<SceneLamp> movable_lamps(const Opened& opened);
@@ -97,6 +103,8 @@ class LampMover {
   bool any() const { return !moved_.empty(); }
   /// Those that are elsewhere, or others, for rays.
   std::vector<StandingLamp> standing() const;
+  /// Those that rays do not know, at points. On the thread that made them.
+  std::vector<KnownLamp> known(std::span<const SurfacePoint> points) const;
   /// Counts changes of light.
   uint64_t version() const { return version_; }
 
@@ -110,6 +118,7 @@ class LampMover {
   struct Lit {
     std::optional<MovedLamp> state;
     std::optional<MoreLights> other;
+    decltype(PrelitLamp::direct) direct;  ///< where rays do not know it
     std::vector<Rgb> light;
     bool fine = false, stale = false;
   };

@@ -7,9 +7,16 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/sobol.h"
 #include "picture/seen.h"
 
 namespace sconce {
+
+namespace {
+
+constexpr uint32_t kGatherStream = 0x67617468u;
+
+}  // namespace
 
 Rgb MeasuredLight::mixed(std::size_t point, const MixSpec& mix) const {
   Rgb sum;
@@ -53,11 +60,17 @@ PointMeter::PointMeter(std::shared_ptr<const StandingScene> scene, std::vector<S
 PointMeter::PointMeter(PointMeter&&) noexcept = default;
 PointMeter::~PointMeter() = default;
 
+void PointMeter::add(const View& view, std::vector<KnownLamp> lamps) {
+  view_ = &view;
+  added_ = std::move(lamps);
+}
+
 void PointMeter::pass(int samples, const Progress& progress) {
   const World& w = *world_;
   BakeParams params;
   params.samples = samples;
   params.seed = ++passes_;
+  const int taken = (samples + kBatches - 1) / kBatches * kBatches;
   const auto solver = find_solver("path").prepare({w.scene, w.world, w.tracer, w.lamps}, params, progress);
   std::vector<Rgb> fresh(light_.values.size());
   parallel_for(points_.size(), 16, [&](std::size_t i) {
@@ -65,8 +78,12 @@ void PointMeter::pass(int samples, const Progress& progress) {
     std::vector<GroupValue> values(light_.groups);
     solver->solve(Footprint::point(static_cast<uint32_t>(i), kind_, points_[i]), values);
     for (std::size_t g = 0; g < values.size(); ++g) fresh[i * light_.groups + g] = values[g].illuminance;
+    for (const KnownLamp& lamp : added_)
+      fresh[i * light_.groups + lamp.group] +=
+          lamp.direct[i] + final_gather(*view_, lamp.pages, points_[i],
+                                        mix32(kGatherStream, static_cast<uint32_t>(i)),
+                                        static_cast<uint32_t>(light_.samples), static_cast<uint32_t>(taken));
   });
-  const int taken = (samples + kBatches - 1) / kBatches * kBatches;
   const float share = static_cast<float>(taken) / static_cast<float>(light_.samples + taken);
   for (std::size_t i = 0; i < fresh.size(); ++i)
     light_.values[i] = (1 - share) * light_.values[i] + share * fresh[i];

@@ -7,6 +7,7 @@
 #include "package/points.h"
 #include "picture/render.h"
 #include "scene/measuring_plane.h"
+#include "session/final_gather.h"
 #include "session/standing.h"
 #include "solve/solver.h"
 
@@ -46,6 +47,8 @@ class PointMeter {
   PointMeter(std::shared_ptr<const StandingScene> scene, std::vector<SurfacePoint> points, ReceiverKind kind);
   PointMeter(PointMeter&&) noexcept;
   ~PointMeter();
+  /// Lamps beside those that rays know. @param view  must outlive it: with objects as the scene has them
+  void add(const View& view, std::vector<KnownLamp> lamps);
   /// `samples` more paths at every point. @throws Cancelled; nothing of the pass counts then
   void pass(int samples, const Progress& progress);
   const MeasuredLight& light() const { return light_; }
@@ -56,6 +59,8 @@ class PointMeter {
   std::unique_ptr<World> world_;
   std::vector<SurfacePoint> points_;
   ReceiverKind kind_;
+  const View* view_ = nullptr;  ///< of what is added
+  std::vector<KnownLamp> added_;
   MeasuredLight light_;
   uint32_t passes_ = 0;
 };

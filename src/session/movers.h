@@ -22,6 +22,10 @@ struct Movers {
   std::vector<StandingLamp> standing() const {
     return lamps != nullptr ? lamps->standing() : std::vector<StandingLamp>();
   }
+  /// Those that rays do not know, at points.
+  std::vector<KnownLamp> known(std::span<const SurfacePoint> points) const {
+    return lamps != nullptr ? lamps->known(points) : std::vector<KnownLamp>();
+  }
   /// Groups whose light is not as it was baked, of `count`.
   std::vector<std::size_t> changed(std::size_t count) const {
     std::set<std::size_t> groups;

@@ -7,20 +7,6 @@
 
 namespace sconce {
 
-namespace {
-
-/// Bilinear.
-Rgb page_at(const Image& page, Vec2 uv) {
-  const TexelPlace x(uv.x, page.width), y(uv.y, page.height);
-  const int x1 = std::min(x.low + 1, page.width - 1), y1 = std::min(y.low + 1, page.height - 1);
-  const auto row = [&](int at) {
-    return (1 - x.fraction) * page.rgb_at(x.low, at) + x.fraction * page.rgb_at(x1, at);
-  };
-  return (1 - y.fraction) * row(y.low) + y.fraction * row(y1);
-}
-
-}  // namespace
-
 std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv) {
   const TexelPlace x(uv.x, layers.width()), y(uv.y, layers.height());
   const int x1 = std::min(x.low + 1, layers.width() - 1), y1 = std::min(y.low + 1, layers.height() - 1);
@@ -78,8 +64,8 @@ Reading read_pixel(const View& view, const EncodedLayers& layers, const MixSpec&
       for (std::size_t g = 0; g < lux.size(); ++g) {
         const auto relit = moved.find(g);
         const Rgb light = relit == moved.end() ? mix.weights.at(g) * lux[g]
-                                               : page_at(relit->second[static_cast<std::size_t>(side.page)],
-                                                         side.at(hit.barycentric));
+                                               : bilinear(relit->second[static_cast<std::size_t>(side.page)],
+                                                          side.at(hit.barycentric));
         reading.illuminance += light;
         reading.group_lux.push_back(luminance(light));
       }
