@@ -59,19 +59,21 @@ TEST_F(ViewTest, BakedPlanesFollowTheFadersExactly) {
 // how.
 TEST_F(ViewTest, FiguresFollowMovedLamps) {
   bake_movable();
-  const auto outcome = view("set right=0.5\nplane 0.9 0.4\nwish 0.2,0.8,0.3 300\nsettle\nfigures " +
-                            path("home.csv") + "\nlamp \"lamp left\" 0,1.4,0.2\nsettle\nfigures " +
-                            path("there.csv") + "\nseek\nwait 1.2\nsettle\nfigures " + path("sought.csv") +
-                            "\nmove 300,300\nframes 3\nscreenshot " + path("all.png") +
-                            "\nhome\nset left=1 right=0.5\nsettle\nfigures " + path("back.csv") + "\n");
+  const auto outcome =
+      view("set right=0.5\nplane 0.9 0.4\nwish 0.2,0.8,0.3 300\nsettle\nfigures " + path("home.csv") +
+           "\nlamp \"lamp left\" 0,1.4,0.2\nsettle\nfigures " + path("there.csv") + "\nscene " +
+           path("written.glb") + "\nseek\nwait 1.2\nsettle\nfigures " + path("sought.csv") +
+           "\nmove 300,300\nframes 3\nscreenshot " + path("all.png") +
+           "\nhome\nset left=1 right=0.5\nsettle\nfigures " + path("back.csv") + "\n");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   Scene moved = test::two_lamp_room();
   for (Instance& instance : moved.instances)
     if (instance.name == "lamp left") instance.transform[3] += glm::vec4(0.6f, -0.58f, 0.2f, 0);
   folder_.write("moved.glb", write_glb(moved, "test"));
-  const auto baked = test::run_sconce(
-      {"bake", path("moved.glb"), "-o", path("moved.sconce"), "--density", "4", "--samples", "1", "--quiet"});
-  ASSERT_EQ(baked.code, 0) << baked.err;
+  for (const char* scene : {"moved.glb", "written.glb"}) {
+    const auto baked = test::run_sconce({"bake", path(scene), "--density", "4", "--samples", "1", "--quiet"});
+    ASSERT_EQ(baked.code, 0) << baked.err;
+  }
   const auto figures = [&](const char* file) {
     std::vector<std::vector<std::string>> rows;
     for (const std::string& line : split(read_file(path(file)), '\n')) rows.push_back(split(line, ','));
@@ -93,6 +95,11 @@ TEST_F(ViewTest, FiguresFollowMovedLamps) {
   EXPECT_NEAR(average("there.csv", 1), plane, 0.02 * plane);
   EXPECT_NEAR(average("there.csv", 2), goal, 0.02 * goal);
   EXPECT_GT(std::abs(average("home.csv", 2) - goal), 0.1 * goal);
+  // The scene that the window writes has its lamps there; right was at 0.5.
+  const auto written =
+      test::run_sconce({"probe", path("written.sconce"), "--plane", "floor+0.9", "--grid", "0.4", "--json"});
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_NEAR(nlohmann::json::parse(written.out)["lux"]["average"].get<double>(), plane, 0.01 * plane);
   // The command measures what the window does.
   const auto commanded = [&](std::vector<std::string> at) {
     at.insert(at.end(), {"--move", "lamp left=0,1.4,0.2"});

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "mix_options.h"
+#include "move_options.h"
 #include "session/to_scene.h"
 #include "web_site.h"
 
@@ -26,13 +27,19 @@ void check_folder(const fs::path& folder) {
 }
 
 int export_scene(const std::string& input, const std::string& target, const MixOptions& settings,
-                 const Options& options) {
+                 const MoveOptions& moves, const Options& options) {
   check_output(target, {".glb"});
   if (target == "-") throw UsageError("option '--scene'", "standard output takes one file", "NAME.glb");
   const Progress progress = make_progress(options);
   const Package package = settings.open(input);
-  const MixSpec mix = settings.make(settings.preset(), package.manifest().groups, progress);
-  const SceneFiles written = write_scene(target, package, mix);
+  const Preset preset = settings.preset();
+  const MixSpec mix = settings.make(preset, package.manifest().groups, progress);
+  const View home(package);
+  const Rearrangement now(moves, preset, package, home, progress);
+  for (const Rearrangement::Shader& shader : now.shaders()) progress.warn(shader_left_out(shader.lamp.name));
+  Scene scene = relit_scene(now.scene(), mix);
+  append(scene, now.added());
+  const SceneFiles written = write_scene(target, std::move(scene), package.manifest().generator);
   for (const std::string& warning : written.warnings) progress.warn(warning);
   std::vector<std::string> files;
   for (const fs::path& file : written.files) files.push_back(file.string());
@@ -53,21 +60,28 @@ int export_scene(const std::string& input, const std::string& target, const MixO
 int run_export(int argc, const char* const* argv) {
   std::string input, folder, scene;
   MixOptions settings;
+  settings.moves_lamps = true;
+  MoveOptions moves;
   WebOptions web;
   Options options(
       "export",
       "A package as a web page with faders: a folder that any web server can host, without code on "
-      "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed.",
+      "the server; or as a scene again, its lamps and emitters as strong and coloured as they are mixed, "
+      "lamps and objects where --move and --object put them.",
       {"sconce export kitchen.sconce ceiling=0.3 --scene relit.glb",
        "sconce export kitchen.sconce --web site --preset evening.toml",
        "python3 -m http.server -d {FOLDER}"});
   options.positional("PACKAGE", &input, "NAME.sconce");
   options.option("--web", &folder, "folder to write; an earlier export in its place is replaced");
-  options.option("--scene", &scene, "NAME.glb to write the re-lit scene to, and NAME.toml with its sky");
+  options.option("--scene", &scene,
+                 "NAME.glb to write the re-lit scene to, and NAME.toml with its sky; what --light to "
+                 "--object say is in it, "
+                 "but for light shaders");
   web.declare(options);
   options.positionals("GROUP=SETTING", &settings.settings,
                       "with --scene: the mix, as `sconce render` takes it");
   options.option("--others", &settings.others, "with --scene: setting of every group that is not named");
+  moves.declare(options);
   if (const auto code = options.parse(argc, argv)) return *code;
   if (folder.empty() == scene.empty())
     throw UsageError({}, folder.empty() ? "nothing to export to" : "a page and a scene are two exports",
@@ -76,10 +90,12 @@ int run_export(int argc, const char* const* argv) {
   if (!scene.empty()) {
     if (web.presets.size() > 1) throw UsageError("option '--preset'", "a scene has one mix", "one preset");
     if (!web.presets.empty()) settings.preset_file = web.presets.front();
-    return export_scene(input, scene, settings, options);
+    return export_scene(input, scene, settings, moves, options);
   }
   if (!settings.settings.empty() || !settings.others.empty())
     throw UsageError({}, "a page has its own faders", "settings with --scene, or --preset FILE");
+  if (moves.any())
+    throw UsageError({}, "a page has lamps and objects where they were baked", "--scene NAME.glb");
   web.check();
 
   fs::path target = fs::absolute(folder).lexically_normal();

@@ -39,6 +39,11 @@ std::vector<ObjectPlace> MoveOptions::places() const {
   return places;
 }
 
+bool MoveOptions::any() const {
+  return !(lamps.lights.empty() && lamps.moves.empty() && lamps.kinds.empty() && lamps.file.empty() &&
+           objects.empty());
+}
+
 std::string MoveOptions::text() const {
   std::vector<std::string> all;
   const auto add = [&](const char* name, const std::vector<std::string>& values) {
@@ -71,7 +76,8 @@ Rearrangement::Rearrangement(const MoveOptions& options, const Preset& preset, c
         if (auto* lights = std::get_if<MoreLights>(&other))
           standing.other = std::move(*lights);
         else
-          shaders_.push_back({lamp.group.value, std::move(std::get<gpu::LampShader>(other))});
+          shaders_.push_back({lamp.group.value, std::move(std::get<gpu::LampShader>(other))}),
+              shaders_.back().lamp.name = names[i];
       }
       lamps_.push_back(std::move(standing));
     }

@@ -20,6 +20,7 @@ struct MoveOptions {
   void declare(Options& options, bool relight = false);
   /// @throws UsageError
   std::vector<ObjectPlace> places() const;
+  bool any() const;
   /// As they were given, for a report.
   std::string text() const;
 };

@@ -43,7 +43,12 @@ void Viewer::save_package(fs::path target) {
 
 void Viewer::save_scene(fs::path target) {
   if (target.empty()) target = state_.file.parent_path() / (state_.file.stem().string() + "-relit.glb");
-  const SceneFiles written = write_scene(target, state_.opened->package, state_.session->mix());
+  const std::vector<StandingLamp> lamps = state_.movers().standing();
+  for (const StandingLamp& one : lamps)
+    if (!one.itself && !one.other) note(shader_left_out(state_.lamps.mover->movable().names[one.lamp]));
+  const SceneFiles written = write_scene(
+      target, relit_scene(standing_scene(rays().scene(), rays().world(), lamps), state_.session->mix()),
+      state_.opened->package.manifest().generator);
   for (const std::string& warning : written.warnings) note(warning);
   note("scene written: " + target.string());
 }

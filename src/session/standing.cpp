@@ -39,7 +39,10 @@ Scene standing_scene(const Scene& from, const World& world, std::span<const Stan
       scene.lights[one.lamp].intensity = Rgb(0);
     if (!one.other) continue;
     MoreLights other = *one.other;
-    for (Light& light : other.lights) light.group = lamp.group;
+    for (Light& light : other.lights) {
+      light.group = lamp.group;
+      if (light.name.empty()) light.name = lamp.name;
+    }
     append(scene, std::move(other));
   }
   std::erase_if(scene.lights, [](const Light& light) { return light.intensity.is_black(); });

@@ -13,7 +13,6 @@
 #include "core/files.h"
 #include "image/io.h"
 #include "package/glb.h"
-#include "package/shown_scene.h"
 
 namespace fs = std::filesystem;
 
@@ -57,8 +56,7 @@ void unname_rest(T& thing, const Scene& scene) {
 
 }  // namespace
 
-Scene relit_scene(const Package& package, const MixSpec& mix) {
-  Scene scene = ShownScene(package).scene;
+Scene relit_scene(Scene scene, const MixSpec& mix) {
   Variants<Mesh> meshes(scene.meshes);
   Variants<Material> materials(scene.materials);
   for (Instance& instance : scene.instances) {
@@ -79,13 +77,12 @@ Scene relit_scene(const Package& package, const MixSpec& mix) {
   return scene;
 }
 
-SceneFiles write_scene(const fs::path& glb, const Package& package, const MixSpec& mix) {
+SceneFiles write_scene(const fs::path& glb, Scene scene, const std::string& generator) {
   const fs::path side = fs::path(glb).replace_extension(".toml"),
                  picture = fs::path(glb).replace_extension(".sky.exr");
   if (fs::exists(side) && !read_file(side).starts_with(kHead))
     throw Error(side.string(), "is a side file of somebody's own, so it is left alone",
                 "another name for the scene");
-  Scene scene = relit_scene(package, mix);
   SceneFiles out;
   for (const Luminaire& luminaire : scene.luminaires)
     if (luminaire.field)
@@ -110,13 +107,16 @@ SceneFiles write_scene(const fs::path& glb, const Package& package, const MixSpe
   std::erase_if(scene.lights, [](const Light& l) { return std::holds_alternative<SkyLight>(l.shape); });
   // All is written before the first is put in place.
   Beside beside(glb);
-  beside.fill(
-      [&](const fs::path& path) { write_file(path, write_glb(scene, package.manifest().generator)); });
+  beside.fill([&](const fs::path& path) { write_file(path, write_glb(scene, generator)); });
   write_file(side, text);
   if (sky) sky->commit();
   beside.commit();
   out.files.insert(out.files.begin(), {glb, side});
   return out;
+}
+
+std::string shader_left_out(const std::string& lamp) {
+  return "lamp '" + lamp + "' is left out: glTF holds no light shaders";
 }
 
 }  // namespace sconce
