@@ -19,11 +19,21 @@ test::Outcome cmake(const std::vector<std::string>& words) {
   return outcome;
 }
 
+// What the empty window offers lies where it looks, in a build folder as in an installation.
+TEST(Install, ABuildFolderHasOurScenes) {
+  for (const char* name : {"bathroom.glb", "theatre.glb", "theatre.toml"}) {
+    const fs::path file = fs::path(SCONCE_PROGRAM).parent_path() / "scenes" / name;
+    ASSERT_TRUE(fs::exists(file)) << file;
+    EXPECT_EQ(read_file(file), read_file(fs::path(SCONCE_SOURCE_DIR) / "scenes" / name)) << name;
+  }
+}
+
 TEST(Install, AProjectFindsIt) {
   const TemporaryFolder folder;
   const fs::path to = folder / "a prefix";
   cmake({"--install", BUILD_FOLDER, "--prefix", to.string()});
   for (const char* file : {"bin/sconce", "include/sconce.h", "share/sconce/scenes/bathroom.glb",
+                           "share/sconce/scenes/theatre.glb", "share/sconce/scenes/theatre.toml",
                            "share/sconce/scenes/moods/evening.toml", "share/sconce/sconce_blender.py",
                            "share/doc/sconce/README.md", "share/doc/sconce/docs/cli.md"})
     EXPECT_TRUE(fs::exists(to / file)) << file;
