@@ -123,10 +123,11 @@ bool Driver::lamp(const Action& action) {
   State& s = v.state_;
   const auto& [word, arguments, where] = action;
   if (!s.lamps.mover) {
-    if (!v.preparing_.running())
+    if (v.preparing_.running()) return --at_, true;  // it is being read
+    v.light_lamps();                                 // it has just been
+    if (!s.lamps.mover)
       throw Error(where, "lamps of this package stay where they are: it has no operator",
                   "sconce bake --movable, sconce transfer");
-    return --at_, true;  // it is being read
   }
   const LampMover& mover = *s.lamps.mover;
   if (word == "moves") {
