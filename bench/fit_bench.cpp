@@ -41,7 +41,7 @@ void look_like_a_picture(benchmark::State& state) {
   double worst = 0;
   for (auto _ : state) {
     Wishes wishes(kGroups);
-    wish_picture(wishes, opened.rays, opened.layers, camera, unit, picture);
+    wish_picture(wishes, opened.rays, grouped_light(opened.layers), camera, unit, picture);
     const Fit found = fit(wishes);
     for (std::size_t g = 0; g < kGroups; ++g)
       worst = std::max(worst, std::abs(found.gains[g] / faders.groups[g].gain - 1));

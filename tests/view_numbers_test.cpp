@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's numbers: goals, baked planes, probes.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
@@ -113,6 +115,60 @@ TEST_F(ViewTest, FiguresFollowMovedLamps) {
   EXPECT_NEAR(average("sought.csv", 2), 300, 3);
   EXPECT_NEAR(average("back.csv", 1), average("home.csv", 1), 0.1);
   EXPECT_NEAR(average("back.csv", 2), average("home.csv", 2), 0.1);
+}
+
+// Faders are sought for a picture of the room with its panel and block elsewhere, which another bake made: by
+// the window, and by the command, which also has a lamp beside the groups.
+TEST_F(ViewTest, PicturesAreSoughtWithThingsWhereTheyAre) {
+  bake_movable();
+  const Vec3 there = test::kBlock + Vec3(-0.9f, 0, 0.2f);
+  const std::string block = fmt::format("{},{},{}", there.x, there.y, there.z);
+  Scene moved = test::with_block_at(there, 0);
+  for (Instance& instance : moved.instances)
+    if (instance.name == "lamp left") instance.transform[3] += glm::vec4(0.6f, -0.58f, 0.2f, 0);
+  folder_.write("moved.glb", write_glb(moved, "test"));
+  const auto run = [](const std::vector<std::string>& words) {
+    const auto outcome = test::run_sconce(words);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run({"bake", path("moved.glb"), "--density", "24", "--samples", "128", "--quiet"});
+  run({"transfer", path("moved.sconce"), "--gather", "1024", "--quiet"});
+  const auto gains = [&](const std::string& preset) {
+    std::map<std::string, double> out;
+    for (const std::string& assignment : read_preset(path(preset)).assignments) {
+      const std::size_t equals = assignment.find('=');
+      out[assignment.substr(0, equals)] = parse_number(assignment.substr(equals + 1)).value();
+    }
+    return out;
+  };
+  const auto expect_gains = [&](const std::string& preset) {
+    auto found = gains(preset);
+    EXPECT_NEAR(found["left"], 0.6, 0.02) << preset;
+    EXPECT_NEAR(found["right"], 1.7, 0.05) << preset;
+  };
+  const std::vector<std::string> mix{"left=0.6", "right=1.7", "--size", "240x240", "--device", "cpu"};
+  const auto picture = [&](std::vector<std::string> words) {
+    words.insert(words.end(), mix.begin(), mix.end());
+    run(words);
+  };
+  picture({"render", path("moved.sconce"), "-o", path("moved.exr")});
+  const auto outcome =
+      view("lamp \"lamp left\" 0,1.4,0.2\nobject block " + block + "\nsettle\nlike " + path("moved.exr") +
+           "\nwait 1.2\nsettle\nsave " + path("window.toml") + "\nscreenshot " + path("all.png") + "\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_gains("window.toml");
+
+  const std::vector<std::string> elsewhere{"--move", "lamp left=0,1.4,0.2", "--object", "block=" + block};
+  const std::string lamp = "point,position=-0.5,1.2,0.5,lumens=20";
+  picture({"relight", path("moved.sconce"), "--light", lamp, "-o", path("more.exr")});
+  std::vector<std::string> words{"fit", path("x.sconce"),    "--target", path("more.exr"), "--light", lamp,
+                                 "-o",  path("command.toml")};
+  words.insert(words.end(), elsewhere.begin(), elsewhere.end());
+  run(words);
+  expect_gains("command.toml");
+  // As it was baked the room does not look like that.
+  run({"fit", path("x.sconce"), "--target", path("moved.exr"), "-o", path("home.toml")});
+  EXPECT_GT(std::abs(gains("home.toml")["left"] - 0.6), 0.1);
 }
 
 // A lamp that became a shader counts, as paths from the same lamp do and the command has it.

@@ -10,10 +10,9 @@
 #include "core/text.h"
 #include "image/io.h"
 #include "mix_options.h"
-#include "move_options.h"
+#include "moved_lightmap.h"
 #include "picture_options.h"
 #include "probe_points.h"
-#include "session/goals.h"
 
 namespace fs = std::filesystem;
 
@@ -90,9 +89,9 @@ int run_fit(int argc, const char* const* argv) {
 
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
-  const Package package = settings.open(input);
-  const View view(package);
-  const EncodedLayers layers = read_layers(package);
+  const auto opened = std::make_shared<const Opened>(settings.open(input));
+  const Package& package = opened->package;
+  const View& view = opened->rays;
   const std::vector<GroupInfo>& groups = package.manifest().groups;
   Preset start = settings.preset();
   start.assignments.insert(start.assignments.end(), settings.settings.begin(), settings.settings.end());
@@ -118,8 +117,12 @@ int run_fit(int argc, const char* const* argv) {
     const MixSpec mix = make_mix(groups, faders);
     const Image wanted = read_target(target, picture, package, mix, progress);
     const Camera camera = picture.find_camera(view.scene(), [&] { return view.camera("", progress); });
-    if (now.any()) progress.warn("the picture is sought with lamps and objects where they were baked");
-    wish_picture(wishes, view, layers, camera, unit, wanted, progress);
+    if (now.any()) {
+      const MovedLightmap moved(opened, now, progress);
+      wish_picture(wishes, moved.view(), moved.light(), camera, unit, wanted, progress);
+    } else {
+      wish_picture(wishes, view, grouped_light(opened->layers), camera, unit, wanted, progress);
+    }
   }
   std::vector<double> power;
   for (const GroupInfo& group : groups) power.push_back(group.lumens);

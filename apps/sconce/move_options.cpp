@@ -15,11 +15,11 @@ namespace sconce::app {
 namespace {
 
 /// One lamp of a change, which may be of many.
-PresetLamp preset_lamp(const Lamp& lamp, const std::string& name, const ChangedLamps& change) {
-  PresetLamp out{name, Vec3(change.move.motion * glm::vec4(*place_of(lamp), 1)), change.target, change.kind};
+MovedLamp moved_lamp(const Lamp& lamp, const ChangedLamps& change) {
+  MovedLamp out{Vec3(change.move.motion * glm::vec4(*place_of(lamp), 1)), change.target, change.kind};
   const auto axis = axis_of(lamp);
   if (change.target && change.kind.empty() && change.move.lamps.size() > 1)
-    out.target = axis ? std::optional(*out.at + Mat3(change.move.motion) * *axis) : std::nullopt;
+    out.target = axis ? std::optional(out.at + Mat3(change.move.motion) * *axis) : std::nullopt;
   return out;
 }
 
@@ -65,11 +65,11 @@ Rearrangement::Rearrangement(const MoveOptions& options, const Preset& preset, c
     moved_->place(ObjectPlaces(home.scene(), home.world()), objects_);
   }
   const Lamps own(view().scene(), view().world());
-  const std::vector<std::string> names = lamp_names(own);
+  names_ = lamp_names(own);
   for (const ChangedLamps& change : changed_lamps(wanted, view().scene(), own))
     for (const std::size_t i : change.move.lamps) {
       const Lamp& lamp = own.all()[i];
-      preset_lamps_.push_back(preset_lamp(lamp, names[i], change));
+      places_[i] = moved_lamp(lamp, change);
       StandingLamp standing{i, change.move.motion, change.kind.empty(), {}};
       if (!standing.itself) {
         OtherKind other = change.other(lamp, progress);
@@ -77,13 +77,19 @@ Rearrangement::Rearrangement(const MoveOptions& options, const Preset& preset, c
           standing.other = std::move(*lights);
         else
           shaders_.push_back({lamp.group.value, std::move(std::get<gpu::LampShader>(other))}),
-              shaders_.back().lamp.name = names[i];
+              shaders_.back().lamp.name = names_[i];
       }
       lamps_.push_back(std::move(standing));
     }
   added_ = std::move(wanted.more);
   for (gpu::LampShader& shader : wanted.shaders)
     shaders_.push_back({package.manifest().groups.size(), std::move(shader)});
+}
+
+std::vector<PresetLamp> Rearrangement::preset_lamps() const {
+  std::vector<PresetLamp> out;
+  for (const auto& [lamp, state] : places_) out.push_back({names_[lamp], state.at, state.target, state.kind});
+  return out;
 }
 
 bool Rearrangement::adds() const {

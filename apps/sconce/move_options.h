@@ -8,6 +8,7 @@
 #include "relight_lamps.h"
 #include "relight_objects.h"
 #include "session/measure.h"
+#include "session/session.h"
 
 namespace sconce::app {
 
@@ -51,8 +52,11 @@ class Rearrangement {
   /// an operator: the package's, or with objects elsewhere one that is made here.
   /// @throws Error where there is none; what is wrong with a shader
   PointMeter meter(std::vector<SurfacePoint> points, const Progress& progress) const;
-  /// Each lamp that is not as it was baked, for a preset; those that were added are none of it.
-  const std::vector<PresetLamp>& preset_lamps() const { return preset_lamps_; }
+  /// Each lamp that is not as it was baked, by its number, and all of them for a preset; those that were
+  /// added are none of it.
+  const MovedPlaces& places() const { return places_; }
+  std::vector<PresetLamp> preset_lamps() const;
+  const ObjectMoves& objects() const { return objects_; }
 
  private:
   std::vector<KnownLamp> known(std::span<const SurfacePoint> points, const Progress& progress) const;
@@ -62,7 +66,8 @@ class Rearrangement {
   ObjectMoves objects_;
   std::unique_ptr<View> moved_;  ///< null where objects stay
   std::vector<StandingLamp> lamps_;
-  std::vector<PresetLamp> preset_lamps_;
+  MovedPlaces places_;
+  std::vector<std::string> names_;  ///< lamp_names()
   MoreLights added_;
   std::vector<Shader> shaders_;
 };

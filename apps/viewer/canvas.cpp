@@ -150,11 +150,8 @@ const GroupPages& Canvas::moved_pages(const Movers& movers) {
   } else if (moved_version_ != movers.version() || moved_mix_.weights != mix_.weights) {
     moved_pages_.clear();
     Mixer mixer(opened_->layers);
-    for (const std::size_t group : movers.changed(mix_.weights.size())) {
-      MixSpec alone{std::vector<Rgb>(mix_.weights.size(), Rgb(0))};
-      alone.weights[group] = mix_.weights[group];
-      moved_pages_[group] = movers.pages(mixer, alone);
-    }
+    for (const std::size_t group : movers.changed(mix_.weights.size()))
+      moved_pages_[group] = movers.pages(mixer, group, mix_.weights.size(), mix_.weights[group]);
     moved_version_ = movers.version(), moved_mix_ = mix_;
   }
   return moved_pages_;

@@ -51,8 +51,8 @@ void Viewer::seek_picture(const fs::path& file) {
   if (state_.sheet)
     wish_picture(wishes, state_.sheet->opened(), unit, target);
   else
-    wish_picture(wishes, state_.opened->rays, state_.opened->layers, state_.camera, unit, target);
-  if (state_.away() && !state_.sheet) note("sought with lamps and objects where they were baked");
+    wish_picture(wishes, rays(), moved_light(state_.movers(), state_.opened->layers), state_.camera, unit,
+                 target);
   const Fit found = fit(wishes);
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);

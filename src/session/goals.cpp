@@ -62,18 +62,23 @@ struct Places {
   }
 };
 
+Image picture_of(const CameraHits& hits, const std::vector<Image>& pages) {
+  Image picture = Image::rgb(hits.width, hits.height);
+  parallel_for(static_cast<std::size_t>(hits.height), 8, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::vector<float> rgb(3 * static_cast<std::size_t>(hits.width) + 1);
+    shade_row(hits, y, pages, rgb.data());
+    std::copy(rgb.begin(), rgb.end() - 1, picture.at(0, y));
+  });
+  return picture;
+}
+
 /// Pictures of every group alone at unit weight, of surfaces only.
-std::vector<Image> group_pictures(const CameraHits& hits, const EncodedLayers& layers) {
-  std::vector<Image> pictures(layers.colors.size(), Image::rgb(hits.width, hits.height));
-  std::vector<Image> pages;
-  for (std::size_t g = 0; g < pictures.size(); ++g) {
-    layers.layer(g, pages);
-    parallel_for(static_cast<std::size_t>(hits.height), 8, [&](std::size_t row) {
-      const int y = static_cast<int>(row);
-      std::vector<float> rgb(3 * static_cast<std::size_t>(hits.width) + 1);
-      shade_row(hits, y, pages, rgb.data());
-      std::copy(rgb.begin(), rgb.end() - 1, pictures[g].at(0, y));
-    });
+std::vector<Image> group_pictures(const CameraHits& hits, const GroupedLight& light, std::size_t groups) {
+  std::vector<Image> pictures, pages;
+  for (std::size_t g = 0; g < groups; ++g) {
+    light.group(g, pages);
+    pictures.push_back(picture_of(hits, pages));
   }
   return pictures;
 }
@@ -82,11 +87,13 @@ constexpr int kRounds = 4;
 
 /// Edges, mirrors, whatever else gains do not explain: pixels that are off by several times the usual.
 void leave_out_strangers(std::span<const Image> parts, std::span<const Rgb> unit,
-                         std::span<const double> gains, const Image& wanted, std::vector<uint8_t>& left_out) {
+                         std::span<const double> gains, const Image& wanted, const Image* given,
+                         std::vector<uint8_t>& left_out) {
   constexpr float kTimes = 1.5f;
   std::vector<float> off(wanted.pixels()), usual;
   for (std::size_t i = 0; i < off.size(); ++i) {
     Rgb sum;
+    if (given != nullptr) sum = {given->data[3 * i], given->data[3 * i + 1], given->data[3 * i + 2]};
     for (std::size_t g = 0; g < unit.size(); ++g) {
       const float* p = &parts[g].data[3 * i];
       sum += static_cast<float>(gains[g]) * unit[g] * Rgb(p[0], p[1], p[2]);
@@ -137,7 +144,7 @@ Image fit_sized(const Image& image) {
 }
 
 void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const Rgb> unit, const Image& wanted,
-                 std::span<const uint8_t> left_out) {
+                 std::span<const uint8_t> left_out, const Image* given) {
   double mean = 0;
   for (int y = 0; y < wanted.height; ++y)
     for (int x = 0; x < wanted.width; ++x) {
@@ -155,25 +162,32 @@ void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const R
       for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
         for (std::size_t g = 0; g < unit.size(); ++g)
           row[g] = static_cast<double>((unit[g] * parts[g].rgb_at(x, y)).*channel);
-        wishes.add(row, static_cast<double>(goal.*channel), 1 / (scale * scale));
+        const float there = given != nullptr ? given->rgb_at(x, y).*channel : 0;
+        wishes.add(row, static_cast<double>(goal.*channel - there), 1 / (scale * scale));
       }
     }
 }
 
-void wish_picture(Wishes& wishes, const View& view, const EncodedLayers& layers, const Camera& camera,
+GroupedLight grouped_light(const EncodedLayers& layers) {
+  return {[&layers](std::size_t group, std::vector<Image>& pages) { layers.layer(group, pages); }};
+}
+
+void wish_picture(Wishes& wishes, const View& view, const GroupedLight& light, const Camera& camera,
                   std::span<const Rgb> unit, const Image& target, const Progress& progress) {
   const Places places(camera, target);
   const Image& wanted = places.wanted;
   const CameraHits hits =
       view.hits(places.camera, {.width = wanted.width, .height = wanted.height, .samples = 1}, 0, progress);
-  const std::vector<Image> parts = group_pictures(hits, layers);
+  const std::vector<Image> parts = group_pictures(hits, light, unit.size());
+  const Image others = light.given.empty() ? Image() : picture_of(hits, light.given);
+  const Image* given = light.given.empty() ? nullptr : &others;
   std::vector<uint8_t> left_out = beside_lamps(hits);
   for (int round = 0; round < kRounds; ++round) {
     Wishes some(unit.size());
-    wish_pixels(some, parts, unit, wanted, left_out);
-    leave_out_strangers(parts, unit, fit(some).gains, wanted, left_out);
+    wish_pixels(some, parts, unit, wanted, left_out, given);
+    leave_out_strangers(parts, unit, fit(some).gains, wanted, given, left_out);
   }
-  wish_pixels(wishes, parts, unit, wanted, left_out);
+  wish_pixels(wishes, parts, unit, wanted, left_out, given);
 }
 
 Image from_display(const Image8& picture, float grey) {

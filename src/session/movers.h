@@ -2,8 +2,10 @@
 // All that stands elsewhere than it was baked, as one lightmap.
 #pragma once
 
+#include <algorithm>
 #include <set>
 
+#include "session/goals.h"
 #include "session/lamp_mover.h"
 #include "session/object_mover.h"
 
@@ -35,6 +37,12 @@ struct Movers {
       for (std::size_t g = 0; g < count; ++g) groups.insert(g);
     return {groups.begin(), groups.end()};
   }
+  /// A group's lightmap alone at a weight, of `count` groups.
+  std::vector<Image> pages(Mixer& mixer, std::size_t group, std::size_t count, const Rgb& weight) const {
+    MixSpec alone{std::vector<Rgb>(count, Rgb(0))};
+    alone.weights[group] = weight;
+    return pages(mixer, alone);
+  }
   /// The mixed lightmap.
   std::vector<Image> pages(Mixer& mixer, const MixSpec& mix) const {
     const auto mixed = [&](const MixSpec& of) {
@@ -43,5 +51,19 @@ struct Movers {
     return lamps != nullptr && lamps->any() ? lamps->pages(mixed, mix) : mixed(mix);
   }
 };
+
+/// The lightmap with all that stands elsewhere, for wish_picture(). @param layers  must outlive it
+inline GroupedLight moved_light(const Movers& movers, const EncodedLayers& layers) {
+  if (!movers.any()) return grouped_light(layers);
+  const std::size_t count = layers.colors.size();
+  const auto mixer = std::make_shared<Mixer>(layers);
+  return {[movers, mixer, count, &layers, changed = movers.changed(count)](std::size_t group,
+                                                                           std::vector<Image>& pages) {
+    if (std::find(changed.begin(), changed.end(), group) == changed.end())
+      layers.layer(group, pages);
+    else
+      pages = movers.pages(*mixer, group, count, Rgb(1));
+  }};
+}
 
 }  // namespace sconce

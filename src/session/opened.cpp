@@ -5,8 +5,8 @@
 
 namespace sconce {
 
-Opened::Opened(const std::filesystem::path& path)
-    : package(Package::open(path)),
+Opened::Opened(Package opened)
+    : package(std::move(opened)),
       rays(package),
       layers(read_layers(package)),
       meter(package, rays.scene()),

@@ -10,7 +10,8 @@ namespace sconce {
 /// All that is read of a package before it can be looked at; made beside the window, then drawn by it.
 struct Opened {
   /// @throws Error naming the damaged file
-  explicit Opened(const std::filesystem::path& path);
+  explicit Opened(const std::filesystem::path& path) : Opened(Package::open(path)) {}
+  explicit Opened(Package package);
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
 
