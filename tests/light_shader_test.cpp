@@ -123,6 +123,12 @@ TEST_F(RelightByOpenGl, MetersKnowShaders) {
   const std::string there = "LAMP,position=-0.3,1.5,0.2,intensity=30";
   expect_same("--light", there, {"left=off"});
   expect_same("--kind", "lamp left=LAMP,intensity=12", {"left=0.5", "--move", "lamp left=-0.3,1.5,0.2"});
+  // Inside of the block nothing shines, not even what casts no shadow.
+  const test::Outcome inside = test::run_sconce(
+      {"probe", room().package, "--json", "--at", "0.35,0.4,-0.35", "--light",
+       "shader,file=" + example("point.glsl") + ",position=-0.3,1.5,0.2,intensity=30,shadow=none"});
+  ASSERT_EQ(inside.code, 0) << inside.err;
+  EXPECT_NE(inside.out.find("\"maximum\": 0.0,"), std::string::npos) << inside.out;
   expect_same("--light", there, {"left=off", "--object", "block=-0.4,0.4,-0.3,30"});
 }
 

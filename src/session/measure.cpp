@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/sobol.h"
 #include "picture/seen.h"
+#include "solve/points.h"
 
 namespace sconce {
 
@@ -71,13 +72,18 @@ void PointMeter::pass(int samples, const Progress& progress) {
   params.samples = samples;
   params.seed = ++passes_;
   const int taken = (samples + kBatches - 1) / kBatches * kBatches;
-  const auto solver = find_solver("path").prepare({w.scene, w.world, w.tracer, w.lamps}, params, progress);
+  const SolveContext context{w.scene, w.world, w.tracer, w.lamps};
+  const auto solver = find_solver("path").prepare(context, params, progress);
   std::vector<Rgb> fresh(light_.values.size());
   parallel_for(points_.size(), 16, [&](std::size_t i) {
     progress.check();
     std::vector<GroupValue> values(light_.groups);
     solver->solve(Footprint::point(static_cast<uint32_t>(i), kind_, points_[i]), values);
     for (std::size_t g = 0; g < values.size(); ++g) fresh[i * light_.groups + g] = values[g].illuminance;
+    // What leaks into furniture is no light there.
+    const bool reached = std::any_of(values.begin(), values.end(),
+                                     [](const GroupValue& v) { return !v.illuminance.is_black(); });
+    if (!reached && (added_.empty() || !is_free(context, points_[i].position))) return;
     for (const KnownLamp& lamp : added_)
       fresh[i * light_.groups + lamp.group] +=
           lamp.direct[i] + final_gather(*view_, lamp.pages, points_[i],

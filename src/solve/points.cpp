@@ -50,15 +50,6 @@ void solve_points(std::size_t count, std::size_t values, const SolveContext& con
   });
 }
 
-bool is_free(const SolveContext& context, const Vec3& position) {
-  uint32_t backs = 0;
-  for (uint32_t i = 0; i < kLooks; ++i) {
-    const Hit hit = context.tracer.closest({position, square_to_sphere(sobol_pair(i, 0, 0))});
-    if (hit && hit.back && !context.scene[context.world.materials[hit.triangle]].double_sided) ++backs;
-  }
-  return 2 * backs < kLooks;
-}
-
 /// Where the probes are along an axis: the first, and how many.
 struct Stand {
   float first;
@@ -85,6 +76,15 @@ Stand stand(const World& world, const Scene& scene, int axis, float spacing) {
 }
 
 }  // namespace
+
+bool is_free(const SolveContext& context, const Vec3& position) {
+  uint32_t backs = 0;
+  for (uint32_t i = 0; i < kLooks; ++i) {
+    const Hit hit = context.tracer.closest({position, square_to_sphere(sobol_pair(i, 0, 0))});
+    if (hit && hit.back && !context.scene[context.world.materials[hit.triangle]].double_sided) ++backs;
+  }
+  return 2 * backs < kLooks;
+}
 
 void bake_plane(PlaneLight& plane, const SolveContext& context, const BakeParams& params,
                 const Progress& progress) {

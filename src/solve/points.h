@@ -13,6 +13,9 @@ namespace sconce {
 void bake_plane(PlaneLight& plane, const SolveContext& context, const BakeParams& params,
                 const Progress& progress);
 
+/// Whether a point is in the open: most rays from inside of something meet backs that no one may see.
+bool is_free(const SolveContext& context, const Vec3& position);
+
 /// Probes over the scene's bounds, half a spacing (or the middle) away from its sides. Along an axis in which
 /// the scene is flat they stand half a spacing before its surfaces, on both sides if those face both ways. A
 /// probe whose rays mostly meet backs that no one may see is inside of something.
