@@ -20,6 +20,7 @@
 #include "luminaire_between.h"
 #include "photometry/formats.h"
 #include "photometry/light_field_file.h"
+#include "photometry/near_error.h"
 
 namespace sconce::app {
 
@@ -54,25 +55,23 @@ Image paint(const Wall& wall, const Progress& progress, const Lux& lux) {
 
 /// What a light field predicts of its errors (ADR 39), as shares of the light on a wall.
 struct Predicted {
-  double geometry = 0, detail = 0, noise = 0;
+  double filters = 0, noise = 0;
 };
 
-/// @param exact_below  where eq. 5 takes over, nothing of the geometry is frozen
-Predicted predict(const Wall& wall, const NearLamp& lamp, double exact_below) {
+Predicted predict(const Wall& wall, const NearLamp& lamp) {
   constexpr int kSide = 32;  // points along an edge
   const Wall coarse{wall.distance, wall.width, kSide};
   const double pixel = wall.width / wall.size;
+  const NearError error(lamp);
   double light = 0;
   Predicted out;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       const Vec3 at = coarse.at(x, y), up(0, 0, 1);
-      const double lux = std::abs(lamp.approximate(at, up)), bound = lamp.bound(at, up);
-      light += lux;
-      out.geometry += bound > exact_below ? 0 : bound * lux;
-      out.detail += lamp.detail(at, up), out.noise += lamp.noise(at, up, pixel);
+      light += std::abs(lamp.approximate(at, up));
+      out.filters += error.at(at, up), out.noise += lamp.noise(at, up, pixel);
     }
-  for (double* v : {&out.geometry, &out.detail, &out.noise}) *v = light > 0 ? *v / light : 0;
+  for (double* v : {&out.filters, &out.noise}) *v = light > 0 ? *v / light : 0;
   return out;
 }
 
@@ -202,7 +201,7 @@ int run_luminaire_render(int argc, const char* const* argv) {
         };
         return Rgb(lux(0), lux(1), lux(2));
       });
-    predicted = predict(wall, lamp, exact_below);
+    predicted = predict(wall, lamp);
   } else {
     try {
       image = land(wall, file, between ? &*between : nullptr, progress, luminous);
@@ -225,16 +224,14 @@ int run_luminaire_render(int argc, const char* const* argv) {
     write_picture(output, image);
   if (options.json) {
     nlohmann::json out{{"file", output}, {"lux_most", most}, {"lux_mean", mean}, {"lumens", lumens}};
-    if (predicted)
-      out["predicted_error"] = {
-          {"geometry", predicted->geometry}, {"detail", predicted->detail}, {"noise", predicted->noise}};
+    if (predicted) out["predicted_error"] = {{"filters", predicted->filters}, {"noise", predicted->noise}};
     fmt::print("{}\n", out.dump(2));
   } else if (!options.quiet) {
     fmt::print("{}: {:.4g} {} at most, {:.4g} in the mean, {:.5g} {} on {:g} x {:g} m\n", output, most,
                luminous ? "lux" : "W/m2", mean, lumens, luminous ? "lm" : "W", wall.width, wall.width);
     if (predicted)
-      fmt::print("predicted error: at most {:.2g} % by geometry, {:.2g} % by detail, noise {:.2g} %\n",
-                 100 * predicted->geometry, 100 * predicted->detail, 100 * predicted->noise);
+      fmt::print("predicted error: {:.2g} % by the filters, noise {:.2g} %\n", 100 * predicted->filters,
+                 100 * predicted->noise);
   }
   options.next({file});
   return kDone;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photometry/light_field.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -34,6 +35,45 @@ int margin_of(NearBasis basis) {
   return basis == NearBasis::bell ? 2 : 6;
 }
 
+/// Along an axis, for an opening of so many spacings.
+int filters_for(NearBasis basis, double spacings) {
+  return std::max(0, static_cast<int>(std::ceil(spacings - 1e-6))) + 2 * margin_of(basis) - 1;
+}
+
+/// Applies the dual to what was weighed by the splines themselves. @param sums  of one channel
+void finish_splines(const LightField& field, double* sums) {
+  const std::size_t pixels = field.pixels(), columns = static_cast<std::size_t>(field.columns),
+                    rows = static_cast<std::size_t>(field.rows);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t n = 0; n < rows; ++n) spline_dual(sums + i + n * columns * pixels, columns, pixels);
+    for (std::size_t m = 0; m < columns; ++m) spline_dual(sums + i + m * pixels, rows, columns * pixels);
+  }
+}
+
+constexpr int kWide = 8;  // filters of twice the spacing that one may give something to
+
+/// What one of a row of filters gives to those twice as wide, from `begin` on.
+struct Shares {
+  int begin = 0;
+  std::array<double, kWide> of{};
+};
+
+/// @param at  its centre among the wide ones, in their spacings
+Shares shares_at(NearBasis basis, double at) {
+  constexpr int kPoints = 64;  // each with the same share of the filter's light
+  Shares out{static_cast<int>(std::floor(at)) - kWide / 2 + 1, {}};
+  for (int i = 0; i < kPoints; ++i) {
+    const Filters wide = filters_at(basis, at + 0.5 * basis_quantile(basis, (i + 0.5) / kPoints));
+    for (int k = 0; k < wide.count; ++k)
+      out.of.at(static_cast<std::size_t>(wide.begin + k - out.begin)) += wide.weight[k] / kPoints;
+  }
+  return out;
+}
+
+std::size_t index(int column, int row, int columns) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+}
+
 }  // namespace
 
 LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, double spacing,
@@ -46,11 +86,8 @@ LightField make_light_field(NearBasis basis, const Vec2& low, const Vec2& high, 
   out.distance = distance;
   const glm::dvec2 size = glm::dvec2(high) - glm::dvec2(low),
                    center = 0.5 * (glm::dvec2(high) + glm::dvec2(low));
-  const auto filters = [&](double length) {
-    return std::max(0, static_cast<int>(std::ceil(length / spacing - 1e-6))) + 2 * margin_of(basis) - 1;
-  };
-  out.columns = filters(size.x);
-  out.rows = filters(size.y);
+  out.columns = filters_for(basis, size.x / spacing);
+  out.rows = filters_for(basis, size.y / spacing);
   out.first = center - 0.5 * spacing * glm::dvec2(out.columns - 1, out.rows - 1);
   out.width = out.height = pixels;
   out.pixel = 2 * half_extent / pixels;
@@ -114,15 +151,8 @@ void LightFieldBuilder::add(std::span<const SourceRay> rays) {
 }
 
 LightField LightFieldBuilder::finish() && {
-  const std::size_t pixels = field_.pixels(), columns = static_cast<std::size_t>(field_.columns),
-                    rows = static_cast<std::size_t>(field_.rows);
-  if (field_.basis == NearBasis::spline) {
-    for (std::size_t i = 0; i < channels_ * pixels; ++i) {
-      double* first = &sums_[i / pixels * rows * columns * pixels + i % pixels];
-      for (std::size_t n = 0; n < rows; ++n) spline_dual(first + n * columns * pixels, columns, pixels);
-      for (std::size_t m = 0; m < columns; ++m) spline_dual(first + m * pixels, rows, columns * pixels);
-    }
-  }
+  for (std::size_t c = 0; c < channels_ && field_.basis == NearBasis::spline; ++c)
+    finish_splines(field_, &sums_[c * field_.terms() * field_.pixels()]);
   const double area = field_.pixel * field_.pixel;
   std::vector<float>& out = channels_ == 1 ? field_.irradiance : field_.color;
   out.resize(sums_.size());
@@ -130,6 +160,40 @@ LightField LightFieldBuilder::finish() && {
   if (channels_ > 1) set_luminance(field_);
   field_.grain = kept_ > 0 ? squares_ / kept_ : 0;
   return std::move(field_);
+}
+
+glm::dvec2 opening(const LightField& field) {
+  const glm::dvec2 filters(field.columns, field.rows);
+  return field.spacing * glm::max(glm::dvec2(0), filters - (2.0 * margin_of(field.basis) - 1));
+}
+
+LightField widened(const LightField& field) {
+  LightField out = field;
+  const double reach = basis_reach(field.basis);
+  out.color.clear();
+  out.spacing = 2 * field.spacing;
+  out.columns = filters_for(field.basis, 0.5 * (field.columns - 1) + reach);
+  out.rows = filters_for(field.basis, 0.5 * (field.rows - 1) + reach);
+  out.first = field.first + 0.5 * field.spacing * glm::dvec2(field.columns - 1, field.rows - 1) -
+              0.5 * out.spacing * glm::dvec2(out.columns - 1, out.rows - 1);
+  std::vector<double> sums(out.terms() * out.pixels());
+  const glm::dvec2 first = (field.first - out.first) / out.spacing;
+  for (int n = 0; n < field.rows; ++n)
+    for (int m = 0; m < field.columns; ++m) {
+      const auto image = field.image(index(m, n, field.columns));
+      const Shares along = shares_at(field.basis, first.x + 0.5 * m),
+                   across = shares_at(field.basis, first.y + 0.5 * n);
+      for (int j = 0; j < kWide; ++j)
+        for (int i = 0; i < kWide; ++i) {
+          const double share = along.of[static_cast<std::size_t>(i)] * across.of[static_cast<std::size_t>(j)];
+          if (share == 0) continue;
+          double* to = &sums.at(index(along.begin + i, across.begin + j, out.columns) * out.pixels());
+          for (std::size_t p = 0; p < image.size(); ++p) to[p] += share * static_cast<double>(image[p]);
+        }
+    }
+  if (out.basis == NearBasis::spline) finish_splines(out, sums.data());
+  out.irradiance.assign(sums.begin(), sums.end());
+  return out;
 }
 
 LightField channel_of(const LightField& field, int channel) {

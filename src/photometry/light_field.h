@@ -7,7 +7,6 @@
 // -distance.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,6 +68,13 @@ class LightFieldBuilder {
   double kept_ = 0, lost_ = 0, squares_ = 0;
 };
 
+/// Size of the part of S that the filters fully cover: light from there keeps its flux, m.
+glm::dvec2 opening(const LightField& field);
+
+/// What filters of twice the spacing would have measured of the light that eq. 5 makes of these: flux is
+/// kept, detail on S is not. Grey.
+LightField widened(const LightField& field);
+
 /// Flux through the images: sum over terms and pixels of E x pixel area, lm.
 double flux(const LightField& field);
 
@@ -113,12 +119,6 @@ class NearLamp {
   /// The same by terms() that are at hand, for surfaces that face each of them. @param spacing  of the light
   /// field that is approximated, where this is a coarser one of it
   double bound(const Vec3& x, std::span<const double> terms, double spacing) const;
-  /// What both equations may miss of the lamp's own pattern as filters and pixels blur it, lux: how far light
-  /// at x departs from the mean of opposite neighbours, at most (ADR 39).
-  double detail(const Vec3& x, const Vec3& n) const;
-  /// Half of these neighbours, from x, m; the others lie opposite.
-  std::array<Vec3, 12> neighbours(const Vec3& x) const;
-  static constexpr double kDetail = 0.8;  ///< of the greatest departure: covers 95 % of the errors of mirrors
   /// Standard deviation of approximate() by the rays that the field was made of, of the mean over a square of
   /// this width about x, lux; at most that. 0 where it was not made of rays.
   double noise(const Vec3& x, const Vec3& n, double width = 0) const;

@@ -11,6 +11,7 @@
 #include "core/sobol.h"
 #include "core/test_data.h"
 #include "photometry/light_field_file.h"
+#include "photometry/near_error.h"
 
 namespace sconce {
 namespace {
@@ -136,17 +137,19 @@ LightField lambertian(double h) {
 // them.
 TEST(LightField, LambertianSquare) {
   const NearLamp lamp(lambertian(1));
-  std::printf("  z/side   exact    eq. 14   bound   far field\n");
+  const NearError error(lamp);
+  std::printf("  z/side   exact    eq. 14  predicted  far field\n");
   for (const double z : {5.0, 10.0, 25.0, 50.0}) {
     const double truth = on_axis(2.5, z);
     const Vec3 x(0, 0, static_cast<float>(-z)), n(0, 0, 1);
     const double exact = lamp.exact(x, n) / truth - 1, approximate = lamp.approximate(x, n) / truth - 1;
     const double point = 25 / (z * z) / truth - 1;
     std::printf("  %5.1f  %+7.3f%% %+7.3f%% %6.2f%% %+7.2f%%\n", z / 5, 100 * exact, 100 * approximate,
-                100 * lamp.bound(x, n), 100 * point);
+                100 * error.at(x, n) / truth, 100 * point);
     EXPECT_LT(std::abs(exact), z < 10 ? 0.015 : 0.005) << z;
     EXPECT_LT(std::abs(approximate), z < 10 ? 0.02 : 0.005) << z;
-    EXPECT_LT(std::abs(approximate) * truth, lamp.bound(x, n) * truth + lamp.detail(x, n)) << z;
+    EXPECT_LT(std::abs(approximate) * truth, error.at(x, n) + 0.002 * truth)
+        << z << ": pixels of h blur, too";
   }
   EXPECT_NEAR(25.0 / 25 / on_axis(2.5, 5) - 1, 0.33, 0.01) << "methods.md 2.6: the far field at one side";
   EXPECT_EQ(lamp.exact(Vec3(0, 0, 1), Vec3(0, 0, -1)), 0);
@@ -234,7 +237,8 @@ std::vector<SourceRay> torch(uint32_t count) {
 }
 
 // On walls at 0.5 to 10 times the lamp's size, against its own rays where they land; the far field of the
-// same rays beside it. The bound covers the error of eq. 14 (rays' noise added) on 95 % of the lit cells.
+// same rays beside it. The prediction covers the error of eq. 14 (rays' noise
+// added) on 95 % of the lit cells.
 TEST(LightField, AgreesWithBruteForceFromNear) {
   constexpr int kCells = 12;
   const auto rays = torch(1 << 21);
@@ -245,6 +249,7 @@ TEST(LightField, AgreesWithBruteForceFromNear) {
   bins.add(rays);
   EXPECT_LT(builder.lost(), 0.01);
   const NearLamp lamp(std::move(builder).finish());
+  const NearError error(lamp);
   const Photometry far = bins.table();
   std::printf("  distance/size  exact   eq. 14  far field   covered\n");
   for (const double times : {0.5, 1.0, 2.0, 5.0, 10.0}) {
@@ -262,14 +267,14 @@ TEST(LightField, AgreesWithBruteForceFromNear) {
     for (int y = 0; y < kCells; ++y)
       for (int x = 0; x < kCells; ++x) {
         const auto i = static_cast<std::size_t>(y * kCells + x);
-        double exact = 0, approximate = 0, point = 0, bound = 0;
+        double exact = 0, approximate = 0, point = 0, predicted = 0;
         for (int k = 0; k < 4; ++k) {  // mean over the cell
           const Vec3 at(static_cast<float>((x + 0.25 + 0.5 * (k % 2)) * cell - 0.5 * width + 0.3 * z - 0.03),
                         static_cast<float>((y + 0.25 + 0.5 * (k / 2)) * cell - 0.5 * width),
                         static_cast<float>(-z));
           const Vec3 up(0, 0, 1);
           exact += 0.25 * lamp.exact(at, up, 2), approximate += 0.25 * lamp.approximate(at, up);
-          bound += 0.25 * (lamp.bound(at, up) * lamp.approximate(at, up) + lamp.detail(at, up));
+          predicted += 0.25 * error.at(at, up);
           const float d = glm::length(at);
           point += 0.25 * intensity(far, at / d) * z / std::pow(static_cast<double>(d), 3);
         }
@@ -278,7 +283,7 @@ TEST(LightField, AgreesWithBruteForceFromNear) {
         far2 += std::pow(point - landed[i], 2);
         if (hits[i] < 100) continue;
         ++lit;
-        covered += std::abs(approximate - landed[i]) <= bound + 3 * landed[i] / std::sqrt(hits[i]);
+        covered += std::abs(approximate - landed[i]) <= predicted + 3 * landed[i] / std::sqrt(hits[i]);
       }
     const auto share = [&](double v) { return std::sqrt(v / squares); };
     std::printf("  %12.1f %6.2f%% %7.2f%% %9.1f%% %8.0f%%\n", times, 100 * share(exact2), 100 * share(near2),

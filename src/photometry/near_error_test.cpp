@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/sobol.h"
-#include "photometry/light_field.h"
+#include "photometry/near_error.h"
 
 namespace sconce {
 namespace {
@@ -63,24 +63,60 @@ TEST(NearError, WhereGeometryIsAboveTheToleranceEquationFiveLights) {
   }
 }
 
-// On M light follows the images. An edge: half of it one neighbour's distance away, nothing further off; an
-// even pattern has no detail but cos4's own curvature.
-TEST(NearError, DetailIsWhereThePatternBends) {
-  const NearLamp even = one_filter([](const glm::dvec2&) { return 1.0; }),
-                 edge = one_filter([](const glm::dvec2& st) { return st.x > 0 ? 1.0 : 0.0; });
-  const double reach = static_cast<double>(glm::length(even.neighbours(Vec3(0, 0, -0.25f)).back()));
-  ASSERT_NEAR(reach, 0.003, 1e-9) << "window 0 and half a pixel, three times";
-  // 1 / (1 + r2/d2)2 over one distance r and back: 2 r2 / d2 at most.
-  const double light = even.approximate(Vec3(0.001f, 0, -0.25f), kUp);
-  EXPECT_LT(even.detail(Vec3(0.001f, 0.001f, -0.25f), kUp),
-            3 * reach * reach / (kDistance * kDistance) * light);
-  EXPECT_NEAR(edge.detail(Vec3(0.001f, 0.001f, -0.25f), kUp), NearLamp::kDetail * 0.5 * light, 0.01 * light)
-      << "just inside";
-  EXPECT_NEAR(edge.detail(Vec3(-0.001f, 0.001f, -0.25f), kUp), NearLamp::kDetail * 0.5 * light, 0.01 * light)
-      << "just outside";
-  EXPECT_LT(edge.detail(Vec3(0.02f, 0.001f, -0.25f), kUp), 1e-3 * light);
-  EXPECT_EQ(edge.detail(Vec3(-0.02f, 0.001f, -0.25f), kUp), 0);
-  EXPECT_EQ(edge.detail(Vec3(0, 0, 0.1f), kUp), 0) << "above the lamp";
+/// A field whose terms send what amount(m, n) says, evenly through M.
+template <class F>
+LightField even_terms(NearBasis basis, int columns, int rows, const F& amount) {
+  LightField f;
+  f.basis = basis;
+  f.columns = columns, f.rows = rows;
+  f.spacing = kSpacing, f.distance = kDistance;
+  f.first = -0.5 * kSpacing * glm::dvec2(columns - 1, rows - 1);
+  f.width = 3, f.height = 2;
+  f.pixel = 2, f.corner = glm::dvec2(-3, -1);
+  for (int n = 0; n < rows; ++n)
+    for (int m = 0; m < columns; ++m)
+      f.irradiance.insert(f.irradiance.end(), f.pixels(), static_cast<float>(amount(m, n)));
+  return f;
+}
+
+// Flux stays. A spline twice as wide is (1, 3, 3, 1)/4 of narrow ones along an axis: measured by wide ones it
+// is that one again.
+TEST(NearError, WideFiltersMeasureWhatNarrowOnesMade) {
+  for (const NearBasis basis : {NearBasis::bell, NearBasis::spline}) {
+    const LightField field = even_terms(basis, 5, 4, [](int m, int n) { return 1 + m - 0.7 * n * m; }),
+                     wide = widened(field);
+    EXPECT_NEAR(flux(wide), flux(field), 1e-6 * std::abs(flux(field)));
+    EXPECT_EQ(wide.spacing, 2 * kSpacing);
+  }
+  constexpr double kNarrow[] = {0, 1, 3, 3, 1, 0};
+  const LightField wide = widened(
+      even_terms(NearBasis::spline, 6, 6, [&](int m, int n) { return kNarrow[m] * kNarrow[n] / 16; }));
+  int found = 0;
+  for (int n = 0; n < wide.rows; ++n)
+    for (int m = 0; m < wide.columns; ++m) {
+      const bool middle = glm::length(wide.center(m, n)) < 1e-9;
+      found += middle ? 1 : 0;
+      // Shares of flux are a quarter of those of light: the filter is four times as large.
+      EXPECT_NEAR(wide.image(static_cast<std::size_t>(n * wide.columns + m))[0], middle ? 4 : 0, 0.01) << m;
+    }
+  EXPECT_EQ(found, 1);
+}
+
+// Five spacings away an even lamp loses next to nothing in filters twice as wide; two spacings away these are
+// coarse, and worse for stripes as narrow as they are.
+TEST(NearError, IsLargeWherePatternsAreAsNarrowAsTheFilters) {
+  const auto error = [](const LightField& field, float z) {
+    const NearLamp lamp(field);
+    return NearError(lamp).at(Vec3(0, 0, -z), kUp) / lamp.approximate(Vec3(0, 0, -z), kUp);
+  };
+  for (const NearBasis basis : {NearBasis::bell, NearBasis::spline}) {
+    const LightField even = even_terms(basis, 24, 24, [](int, int) { return 1; }),
+                     stripes = even_terms(basis, 24, 24, [](int m, int) { return m / 2 % 2 == 0 ? 2 : 0; });
+    EXPECT_LT(error(even, 0.05f), 0.02) << name_of(basis);
+    EXPECT_GT(error(stripes, 0.02f), 1.5 * error(even, 0.02f)) << name_of(basis);
+  }
+  const NearLamp above(even_terms(NearBasis::bell, 4, 4, [](int, int) { return 1; }));
+  EXPECT_EQ(NearError(above).at(Vec3(0, 0, 0.1f), kUp), 0);
 }
 
 // Fields of the same lamp from other rays scatter by it, or by less, down to a quarter: what filters have in

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "photometry/light_field.h"
@@ -177,27 +176,6 @@ double NearLamp::bound(const Vec3& x, std::span<const double> terms, double spac
                      static_cast<std::size_t>(m)];
       },
       [](const glm::dvec2& t) { return glm::length(t) / (1 + glm::dot(t, t)); });
-}
-
-std::array<Vec3, 12> NearLamp::neighbours(const Vec3& x) const {
-  constexpr int kRings = 3, kDirections = 4;
-  std::array<Vec3, kRings * kDirections> out;
-  const double depth = static_cast<double>(-x.z),
-               blur = (window(depth) + 0.5 * field_.pixel) * depth / field_.distance;
-  for (int i = 0; i < kRings * kDirections; ++i) {
-    const double angle = std::numbers::pi * (i % kDirections) / kDirections, r = blur * (1 + i / kDirections);
-    out[static_cast<std::size_t>(i)] = Vec3(Vec2(r * glm::dvec2(std::cos(angle), std::sin(angle))), 0);
-  }
-  return out;
-}
-
-double NearLamp::detail(const Vec3& x, const Vec3& n) const {
-  if (!(x.z < 0)) return 0;
-  const double here = approximate(x, n);
-  double most = 0;
-  for (const Vec3& to : neighbours(x))
-    most = std::max(most, std::abs(0.5 * (approximate(x + to, n) + approximate(x - to, n)) - here));
-  return kDetail * most;
 }
 
 double NearLamp::noise(const Vec3& x, const Vec3& n, double width) const {
