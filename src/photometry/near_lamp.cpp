@@ -99,18 +99,52 @@ double NearLamp::from(const glm::dvec2& uv, const Vec3& x) const {
 
 double NearLamp::exact(const Vec3& x, const Vec3& normal, int points) const {
   if (!(x.z < 0)) return 0;
-  const double reach = basis_reach(field_.basis), step = field_.spacing / points;
-  const int columns = static_cast<int>((field_.columns - 1 + 2 * reach) * points),
-            rows = static_cast<int>((field_.rows - 1 + 2 * reach) * points);
-  const glm::dvec2 start = field_.first - glm::dvec2(reach * field_.spacing);
-  double sum = 0;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const glm::dvec2 uv = start + step * (glm::dvec2(i, j) + 0.5);
-      const double cosine = cosine_at(uv, x, normal);
-      if (cosine > 0) sum += cosine * from(uv, x);
+  // At x light falls by z^2 / D^4 and by the cosine n.(uv - x) / z; g of eq. 5 has (d z / D^2)^2 / d^4 along
+  // the same line: what is left is linear in uv, and pixels depend on u and v apart.
+  struct Point {
+    int pixel;
+    double cosine;
+  };
+  const glm::dvec3 at(x), n(normal);
+  const double reach = basis_reach(field_.basis), step = field_.spacing / points, depth = -at.z,
+               stretch = field_.distance / depth;
+  const auto reached = static_cast<int>(std::lround(2 * reach * points));  // by a filter, along an axis
+  std::vector<double> weights;
+  for (int i = 0; i < reached; ++i) weights.push_back(basis_at(field_.basis, (i + 0.5) / points - reach));
+  const auto along = [&](int axis, int filters, int pixels) {
+    std::vector<Point> out;
+    for (int i = 0; i < (filters - 1) * points + reached; ++i) {
+      const double to = field_.first[axis] - reach * field_.spacing + step * (i + 0.5) - at[axis],
+                   pixel = std::floor((at[axis] + to * (1 - stretch) - field_.corner[axis]) / field_.pixel);
+      out.push_back({pixel >= 0 && pixel < pixels ? static_cast<int>(pixel) : -1, n[axis] * to});
     }
-  return sum * step * step;
+    return out;
+  };
+  const std::vector<Point> us = along(0, field_.columns, field_.width),
+                           vs = along(1, field_.rows, field_.height);
+  double sum = 0;
+  for (int row = 0; row < field_.rows; ++row)
+    for (int column = 0; column < field_.columns; ++column) {
+      const float* image =
+          field_
+              .image(static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.columns) +
+                     static_cast<std::size_t>(column))
+              .data();
+      const Point *u = &us[static_cast<std::size_t>(column * points)],
+                  *v = &vs[static_cast<std::size_t>(row * points)];
+      for (int j = 0; j < reached; ++j) {
+        if (v[j].pixel < 0) continue;
+        const float* line = image + v[j].pixel * field_.width;
+        const double cosine = v[j].cosine + n.z * depth;
+        double part = 0;
+        for (int i = 0; i < reached; ++i)
+          if (u[i].pixel >= 0)
+            part += weights[static_cast<std::size_t>(i)] * std::max(0.0, u[i].cosine + cosine) *
+                    static_cast<double>(line[u[i].pixel]);
+        sum += weights[static_cast<std::size_t>(j)] * part;
+      }
+    }
+  return sum * stretch * stretch / (depth * points * points);
 }
 
 double NearLamp::window(double depth) const {
