@@ -2,6 +2,7 @@
 // The window, driven by scripts on a display of its own; its pictures against the CPU's.
 #include <thread>
 
+#include "bumpy_room.h"
 #include "core/files.h"
 #include "image/io.h"
 #include "mix/preset.h"
@@ -81,6 +82,34 @@ TEST_F(ViewTest, MirrorsAreFollowedAtRest) {
   EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 2) << times;  // one frame in which a fader moved
   EXPECT_LE(mean_difference(png("none.png"), without), 2);
   EXPECT_GT(mean_difference(on, without), 10);
+}
+
+// Where the light knows directions, also while a lamp is elsewhere: then under the groups that stay.
+TEST_F(ViewTest, NormalMapsAreSeen) {
+  Scene scene = test::bumpy_room();
+  bake_movable(scene, {"--basis", "sh1"});
+  const auto outcome = view("ev100 3\nset left=0.5\nsettle\npicture " + path("bumpy.png") +
+                            "\nlamp \"lamp left\" 0,1.4,0\nsettle\npicture " + path("moved.png") +
+                            "\nlook lightmap\nsettle\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Image8 bumpy = png("bumpy.png"), moved = png("moved.png");
+  const auto picture = [&](std::vector<std::string> words) {
+    words.insert(words.begin() + 1, path("x.sconce"));
+    for (const std::string& word :
+         {std::string("left=0.5"), std::string("--ev100"), std::string("3"), std::string("--no-reflections"),
+          std::string("--size"), std::to_string(bumpy.width) + "x" + std::to_string(bumpy.height),
+          std::string("-o"), path("cpu.png")})
+      words.push_back(word);
+    const auto made = test::run_sconce(words);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return png("cpu.png");
+  };
+  EXPECT_LE(mean_difference(bumpy, picture({"render", "--device", "cpu"})), 1);
+  const Image8 relit = picture({"relight", "--move", "lamp left=0,1.4,0", "--device", "cpu"});
+  EXPECT_LE(mean_difference(moved, relit), 3);
+  std::filesystem::remove_all(path("x.sconce"));
+  bake_movable(scene);
+  EXPECT_GT(mean_difference(bumpy, picture({"render", "--device", "cpu"})), 1.5) << "the maps should be seen";
 }
 
 TEST_F(ViewTest, HandsMoveFadersAndKeysTakeThemBack) {

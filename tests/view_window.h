@@ -26,11 +26,12 @@ class ViewTest : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   /// Two lamps and an operator.
-  void bake_movable(const Scene& scene = test::two_lamp_room()) {
+  void bake_movable(const Scene& scene = test::two_lamp_room(), const std::vector<std::string>& more = {}) {
     folder_.write("x.glb", write_glb(scene, "test"));
+    std::vector<std::string> bake{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"};
+    bake.insert(bake.end(), more.begin(), more.end());
     for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"bake", path("x.glb"), "--density", "24", "--samples", "128", "--quiet"},
-          {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
+         {bake, {"transfer", path("x.sconce"), "--gather", "1024", "--quiet"}}) {
       const auto made = test::run_sconce(words);
       ASSERT_EQ(made.code, 0) << made.err;
     }

@@ -37,11 +37,12 @@ void Viewer::follow_mirrors() {
                        .reflections = kReflections};
   mirroring_.start([opened = state_.opened, mover = state_.objects.mover, &view = rays(),
                     camera = state_.camera, mix = canvas.mix(), pages = canvas.mixed_pages(state_.movers()),
+                    components = canvas.mixed_components(canvas.mix(), state_.movers()),
                     params](const Progress& progress, const auto& publish) mutable {
     Image sum = Image::rgb(params.width, params.height);
     for (int pass = 1; pass <= kPasses; ++pass) {
       params.seed = static_cast<uint32_t>(pass);
-      const Image one = view.render(camera, mix, pages, params, progress);
+      const Image one = view.render(camera, mix, pages, params, progress, nullptr, {}, components);
       Image mean = sum;
       for (std::size_t i = 0; i < sum.data.size(); ++i) {
         sum.data[i] += one.data[i];

@@ -45,9 +45,10 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
     : Screen(context),
       context_(&context),
       opened_(std::move(opened)),
-      view_(context, opened_->rays.shown()),
+      view_(context, opened_->rays.shown(), opened_->rays.sees_normal_maps()),
       mixer_(opened_->layers),
       reference_display_(context) {
+  for (std::size_t c = 1; c < opened_->layers.coefficients(); ++c) axes_.emplace_back(opened_->layers, c);
   const ShaderTier& tier = gpu::tier_of(context.capabilities());
   // Mixing by a processor that plays graphics device is slower than by the one that is a processor.
   if (!context.capabilities().software && tier.f16)
@@ -66,10 +67,13 @@ void Canvas::update_mix(const MixSpec& mix, const Movers& movers, bool metered) 
     const std::vector<Image>& pages = moved ? relit_pages : mixer_.mix(mix);
     if (metered) metering_ = opened_->meter(mix, pages);
     fader_ms_ = watch.milliseconds();
-    if (!on_device_ && pages_ == nullptr)
-      pages_ = std::make_unique<gpu::MixedPages>(*context_, pages);
-    else if (!on_device_)
-      pages_->set(pages);
+    if (!on_device_) {
+      const std::vector<Image> components = mixed_components(mix, movers);
+      if (pages_ == nullptr)
+        pages_ = std::make_unique<gpu::MixedPages>(*context_, pages, components);
+      else
+        pages_->set(pages, components);
+    }
   }
   if (on_device_) atlas_->mix(mix.weights);
   mix_ = mix, mixed_ = true, metered_ = metered, relit_ = relit;
@@ -142,6 +146,17 @@ void Canvas::follow(const sconce::View& view) {
 
 std::vector<Image> Canvas::mixed_pages(const Movers& movers) {
   return movers.pages(mixer_, mix_);
+}
+
+std::vector<Image> Canvas::mixed_components(const MixSpec& mix, const Movers& movers) {
+  MixSpec baked = mix;
+  for (const std::size_t group : movers.changed(mix.weights.size())) baked.weights[group] = Rgb(0);
+  std::vector<Image> out(axes_.size() * static_cast<std::size_t>(opened_->package.manifest().pages));
+  for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    const std::vector<Image>& pages = axes_[axis].mix(baked);
+    for (std::size_t page = 0; page < pages.size(); ++page) out[axes_.size() * page + axis] = pages[page];
+  }
+  return out;
 }
 
 const GroupPages& Canvas::moved_pages(const Movers& movers) {

@@ -45,6 +45,8 @@ class Canvas : public Screen {
   void draw_anew() { samples_ = 0; }
   /// Of the mix that is drawn. @param movers  as in draw()
   std::vector<Image> mixed_pages(const Movers& movers);
+  /// As mix_components(), of the groups whose light is as it was baked; empty where no normal maps are seen.
+  std::vector<Image> mixed_components(const MixSpec& mix, const Movers& movers);
   /// Pages of each group whose light is not as it was baked, as weighted in the mix that is drawn.
   const GroupPages& moved_pages(const Movers& movers);
 
@@ -62,6 +64,7 @@ class Canvas : public Screen {
   std::shared_ptr<const Opened> opened_;
   gpu::View view_;
   Mixer mixer_;
+  std::vector<Mixer> axes_;                 ///< of its directions; empty where no normal maps are seen
   std::unique_ptr<gpu::AtlasMix> atlas_;    ///< where a graphics device mixes
   std::unique_ptr<gpu::MixedPages> pages_;  ///< where the processor does
   std::unique_ptr<gpu::MixedPages> noise_;

@@ -8,8 +8,9 @@
 
 namespace sconce {
 
-Mixer::Mixer(EncodedLayers layers) : colors_(std::move(layers.colors)) {
+Mixer::Mixer(EncodedLayers layers, std::size_t coefficient) : colors_(std::move(layers.colors)) {
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
+    if (layers.textures[t].coefficient != coefficient) continue;
     std::vector<EncodedImage>& pages = layers.images[t];
     const std::size_t groups = layers.textures[t].groups.size();
     // Blocks are unpacked once; what they hold are halves.

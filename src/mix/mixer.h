@@ -15,7 +15,8 @@ class Mixer {
  public:
   /// Reads all layers. @throws as Package::encoded
   explicit Mixer(const Package& package) : Mixer(read_layers(package)) {}
-  explicit Mixer(EncodedLayers layers);
+  /// @param coefficient  of the basis
+  explicit Mixer(EncodedLayers layers, std::size_t coefficient = 0);
 
   /// sum_g w_g * E_g per page, RGB lux. Where less than half of the textures have other weights than at the
   /// last call, only they are read and their differences added; every kRefresh such calls all is summed anew,

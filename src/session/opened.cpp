@@ -8,7 +8,7 @@ namespace sconce {
 Opened::Opened(Package opened)
     : package(std::move(opened)),
       rays(package),
-      layers(read_layers(package)),
+      layers(read_layers(package, rays.sees_normal_maps() ? coefficients(Basis::sh1) : 1)),
       meter(package, rays.scene()),
       planes(baked_planes(package)),
       probes(read_probes(package)) {}

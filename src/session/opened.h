@@ -17,7 +17,7 @@ struct Opened {
 
   Package package;
   View rays;
-  EncodedLayers layers;
+  EncodedLayers layers;  ///< all coefficients where normal maps are seen
   LightMeter meter;
   std::vector<MeasuredPlane> planes;  ///< baked with it
   std::optional<ProbeGrid> probes;    ///< likewise

@@ -15,6 +15,7 @@ std::vector<Rgb> layers_at(const EncodedLayers& layers, int page, Vec2 uv) {
   std::vector<Rgb> found(layers.colors.size());
   for (std::size_t t = 0; t < layers.textures.size(); ++t) {
     const LayerTexture& texture = layers.textures[t];
+    if (texture.coefficient != 0) continue;
     const EncodedImage& image = layers.images[t][static_cast<std::size_t>(page)];
     const auto channels = static_cast<std::size_t>(image.channels);
     std::vector<float> decoded(channels * static_cast<std::size_t>(rows) *
