@@ -16,6 +16,7 @@ namespace sconce {
 namespace {
 
 constexpr uint32_t kGatherStream = 0x67617468u;
+constexpr float kLeak = 0.01f;  // of the brightest point: what texels at edges let through walls
 
 }  // namespace
 
@@ -66,6 +67,27 @@ void PointMeter::add(const View& view, std::vector<KnownLamp> lamps) {
   added_ = std::move(lamps);
 }
 
+void PointMeter::add_known(const KnownLamp& lamp, int samples, const SolveContext& context,
+                           const Progress& progress, std::vector<Rgb>& sum) const {
+  std::vector<Rgb> light(points_.size());
+  parallel_for(light.size(), 16, [&](std::size_t i) {
+    progress.check();
+    light[i] = lamp.direct[i] +
+               final_gather(*view_, lamp.pages, points_[i], mix32(kGatherStream, static_cast<uint32_t>(i)),
+                            static_cast<uint32_t>(light_.samples), static_cast<uint32_t>(samples));
+  });
+  float most = 0;
+  for (const Rgb& e : light) most = std::max(most, luminance(e));
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const auto first = sum.begin() + static_cast<std::ptrdiff_t>(i * light_.groups);
+    const bool reached = std::any_of(first, first + static_cast<std::ptrdiff_t>(light_.groups),
+                                     [](const Rgb& e) { return !e.is_black(); });
+    const bool leaks =
+        !reached && (luminance(light[i]) < kLeak * most || !is_free(context, points_[i].position));
+    if (!leaks) first[static_cast<std::ptrdiff_t>(lamp.group)] += light[i];
+  }
+}
+
 void PointMeter::pass(int samples, const Progress& progress) {
   const World& w = *world_;
   BakeParams params;
@@ -80,16 +102,8 @@ void PointMeter::pass(int samples, const Progress& progress) {
     std::vector<GroupValue> values(light_.groups);
     solver->solve(Footprint::point(static_cast<uint32_t>(i), kind_, points_[i]), values);
     for (std::size_t g = 0; g < values.size(); ++g) fresh[i * light_.groups + g] = values[g].illuminance;
-    // What leaks into furniture is no light there.
-    const bool reached = std::any_of(values.begin(), values.end(),
-                                     [](const GroupValue& v) { return !v.illuminance.is_black(); });
-    if (!reached && (added_.empty() || !is_free(context, points_[i].position))) return;
-    for (const KnownLamp& lamp : added_)
-      fresh[i * light_.groups + lamp.group] +=
-          lamp.direct[i] + final_gather(*view_, lamp.pages, points_[i],
-                                        mix32(kGatherStream, static_cast<uint32_t>(i)),
-                                        static_cast<uint32_t>(light_.samples), static_cast<uint32_t>(taken));
   });
+  for (const KnownLamp& lamp : added_) add_known(lamp, taken, context, progress, fresh);
   const float share = static_cast<float>(taken) / static_cast<float>(light_.samples + taken);
   for (std::size_t i = 0; i < fresh.size(); ++i)
     light_.values[i] = (1 - share) * light_.values[i] + share * fresh[i];

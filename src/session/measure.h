@@ -55,6 +55,9 @@ class PointMeter {
 
  private:
   struct World;
+  /// Where no path finds light, what leaks into furniture and through walls is none.
+  void add_known(const KnownLamp& lamp, int samples, const SolveContext& context, const Progress& progress,
+                 std::vector<Rgb>& sum) const;
   PointMeter(std::unique_ptr<World> world, std::vector<SurfacePoint> points, ReceiverKind kind);
   std::unique_ptr<World> world_;
   std::vector<SurfacePoint> points_;
