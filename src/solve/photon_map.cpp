@@ -85,6 +85,33 @@ class PhotonTracer {
   uint32_t stream_;
 };
 
+/// Every third bit from the lowest ten.
+uint32_t spread(uint32_t v) {
+  v = (v | v << 16) & 0x030000ff;
+  v = (v | v << 8) & 0x0300f00f;
+  v = (v | v << 4) & 0x030c30c3;
+  return (v | v << 2) & 0x09249249;
+}
+
+/// Photons in the order of a Morton curve: what is near in space is near in memory, where searches wait for
+/// it.
+void sort_along_curve(std::vector<Photon>& photons, const Bounds& bounds) {
+  const Vec3 scale = 1023.0f / glm::max(bounds.hi - bounds.lo, Vec3(1e-30f));
+  std::vector<std::pair<uint32_t, uint32_t>> order;
+  order.reserve(photons.size());
+  for (const Photon& p : photons) {
+    const Vec3 cell = glm::clamp((p.position - bounds.lo) * scale, Vec3(0), Vec3(1023));
+    order.emplace_back(spread(static_cast<uint32_t>(cell.x)) | spread(static_cast<uint32_t>(cell.y)) << 1 |
+                           spread(static_cast<uint32_t>(cell.z)) << 2,
+                       order.size());
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Photon> sorted;
+  sorted.reserve(photons.size());
+  for (const auto& [code, i] : order) sorted.push_back(photons[i]);
+  photons = std::move(sorted);
+}
+
 }  // namespace
 
 PhotonMap::PhotonMap(const SolveContext& context, int landings, std::size_t photons, uint32_t seed,
@@ -114,6 +141,7 @@ PhotonMap::PhotonMap(const SolveContext& context, int landings, std::size_t phot
   for (std::size_t t = 0; t < context.world.size(); ++t)
     area_ +=
         static_cast<double>(context.world.area(t)) / static_cast<double>(std::max<std::size_t>(1, total));
+  sort_along_curve(photons_, context.world.bounds);
   tree_ = std::make_unique<PhotonTree<Photon>>(photons_);
 }
 
