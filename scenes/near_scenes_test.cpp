@@ -7,6 +7,7 @@
 #include "luminaires.h"
 #include "measure/field.h"
 #include "measure/virtual_bench.h"
+#include "photometry/near_error.h"
 #include "scene/groups.h"
 #include "vaults.h"
 
@@ -99,6 +100,7 @@ TEST(NearScenes, PredictedErrorsCoverTheTrueOnes) {
   params.spacing = 0.01, params.angle = kAngle, params.pixels = 64;
   const MeasuredField measured = measure_field([&](const auto& f) { f(rays); }, params, "washer");
   const NearLamp lamp(measured.field);
+  const NearError predicts(lamp);
   const Vec3 up(0, 0, 1);
   for (const double z : {0.06, 0.12, 0.3}) {
     const double cell = (0.12 + 1.2 * z * tangent) / kCells, start = -0.5 * kCells * cell;
@@ -121,9 +123,8 @@ TEST(NearScenes, PredictedErrorsCoverTheTrueOnes) {
         const Vec3 x(static_cast<float>(start + (static_cast<double>(i % 16) + 0.25 + 0.5 * (k % 2)) * cell),
                      static_cast<float>(start + (static_cast<double>(i / 16) + 0.25 + 0.5 * (k / 2)) * cell),
                      static_cast<float>(-z));
-        const double e = lamp.approximate(x, up);
-        approximate += e / 4, noise += lamp.noise(x, up, cell) / 4;
-        bound += (lamp.bound(x, up) * std::abs(e) + lamp.detail(x, up)) / 4;
+        approximate += lamp.approximate(x, up) / 4, noise += lamp.noise(x, up, cell) / 4;
+        bound += predicts.at(x, up) / 4;
       }
       const double off = std::abs(approximate - landed[i]);
       lit += 1, covered += off <= bound + 2 * std::sqrt(squares[i] + noise * noise);
