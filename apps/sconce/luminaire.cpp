@@ -18,7 +18,8 @@ namespace {
 constexpr Verb kActions[] = {
     {"info", "what a photometric file or a ray file says: flux, beam, symmetry, size", run_luminaire_info},
     {"check", "what is wrong with it: flux, gaps, headers; UGR table, polar diagram", run_luminaire_check},
-    {"convert", "IES to EULUMDAT and back; rays to a far field; light fields in another coding",
+    {"convert",
+     "IES to EULUMDAT and back; rays and scenes to a far field or TM-25; light fields in another coding",
      run_luminaire_convert},
     {"field", "rays to a near-field light field", run_luminaire_field},
     {"acquire", "photographs of a lamp to a near-field light field", run_luminaire_acquire},

@@ -55,8 +55,7 @@ int run_luminaire_field(int argc, const char* const* argv) {
   options.option("--angle", &params.angle, "rays further from nadir are left out, degrees");
   options.option("--pixels", &params.pixels, "of an image's edge");
   options.option("--lumens", &params.lumens, "scale to this luminous flux; 0 = as it is");
-  options.option("--rays", &count, "that a scene's lamps send out");
-  options.option("--seed", &seed, "random seed of a scene's rays");
+  add_bench(options, count, seed);
   options.option("--far", &far, "far field of the same rays to write too, .ies");
   if (const auto code = options.parse(argc, argv)) return *code;
   if (output.empty()) throw UsageError("-o", "is missing", "a file .exr");
@@ -67,12 +66,12 @@ int run_luminaire_field(int argc, const char* const* argv) {
     throw UsageError("--angle", "is out of range", "degrees above 0 and below 85");
   if (params.pixels < 8 || params.pixels > 2048) throw UsageError("--pixels", "is out of range", "8 to 2048");
   if (!(params.lumens >= 0)) throw UsageError("--lumens", "is negative", "lm >= 0");
-  if (!(count >= 1 && count <= 2e9)) throw UsageError("--rays", "is out of range", "1 to 2000000000");
   params.basis = parse_basis(basis);
   params.spacing = spacing * 1e-3, params.distance = distance * 1e-3;
   const ThreadLimit threads(options.threads);
   const Progress progress = make_progress(options);
-  const LampRays rays(file, static_cast<uint64_t>(count), static_cast<uint32_t>(seed), progress);
+  LampRays rays(file, count, seed, progress);
+  rays.keep();
   const auto each = [&](const auto& f) {
     rays.each(f);
     if (!rays.luminous() && !(params.lumens > 0))

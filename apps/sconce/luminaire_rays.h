@@ -3,33 +3,43 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app.h"
 #include "photometry/rays.h"
 
 namespace sconce::app {
 
 class LampRays {
  public:
-  /// @param file  rays, or a scene (glTF, OBJ) whose lamps are traced out of it
+  /// @param file  rays, or a scene (glTF, OBJ, L3D) whose lamps are traced out of it
   /// @param count  of rays that a scene's lamps send
-  /// @throws Error, NotMyFormat: neither
-  LampRays(const std::string& file, uint64_t count, uint32_t seed, const Progress& progress);
+  LampRays(const std::string& file, double count, int seed, const Progress& progress);
+  ~LampRays();
 
   /// Calls f with blocks of rays, always in the same order; flux as the file has it, lm for a scene.
+  /// @throws Error, NotMyFormat: neither
   void each(const std::function<void(std::span<const SourceRay>)>& f) const;
-  bool traced() const { return traced_; }
+  /// Traces a scene once and holds its rays, 40 bytes each, where each() would trace it anew.
+  void keep();
+  bool traced() const { return model_ != nullptr; }
   /// Are fluxes lumens, and not watts? Known once each() has run.
   bool luminous() const { return luminous_; }
 
  private:
+  struct Model;
+
   std::string file_;
-  bool traced_ = false;
+  std::unique_ptr<const Model> model_;  ///< of a scene
   mutable bool luminous_ = true;
-  mutable Progress once_;        ///< says what is odd about a file the first time only
-  std::vector<SourceRay> rays_;  ///< of a scene
+  mutable Progress once_;  ///< says what is odd about a file the first time only
+  std::vector<SourceRay> kept_;
 };
+
+/// --rays and --seed of a scene's rays.
+void add_bench(Options& options, double& count, int& seed);
 
 }  // namespace sconce::app

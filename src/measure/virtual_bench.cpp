@@ -14,6 +14,7 @@ namespace {
 
 constexpr uint32_t kPanePair = 0xfffffeffu;
 constexpr uint64_t kChunk = 1 << 14;  // rays of one lamp at a time
+constexpr std::size_t kWave = 64;     // chunks held at once
 
 struct Chunk {
   std::size_t lamp;
@@ -77,9 +78,9 @@ class BenchTracer {
 
 }  // namespace
 
-std::vector<SourceRay> trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer,
-                                       const Lamps& lamps, const BenchParams& params,
-                                       const Progress& progress) {
+void trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
+                     const BenchParams& params, const std::function<void(std::span<const SourceRay>)>& sink,
+                     const Progress& progress) {
   double total = 0;
   for (const Lamp& lamp : lamps.all()) {
     if (lamp.infinite)
@@ -97,22 +98,31 @@ std::vector<SourceRay> trace_luminaire(const Scene& scene, const World& world, c
       chunks.push_back({i, first, std::min(kChunk, counts[i] - first)});
   }
   const BenchTracer bench(scene, world, tracer, lamps, params);
-  std::vector<std::vector<SourceRay>> left(chunks.size());
+  std::vector<std::vector<SourceRay>> left(std::min(chunks.size(), kWave));
   std::atomic<uint64_t> done = 0;
-  parallel_for(chunks.size(), 1, [&](std::size_t c) {
-    progress.check();
-    const Chunk& chunk = chunks[c];
-    for (uint64_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-      const SourceRay ray = bench.trace(chunk.lamp, i, counts[chunk.lamp]);
-      if (ray.flux > 0) left[c].push_back(ray);
-    }
-    progress.at("trace the luminaire", ++done, chunks.size());
-  });
-  std::vector<SourceRay> rays;
-  for (std::vector<SourceRay>& part : left) {
-    rays.insert(rays.end(), part.begin(), part.end());
-    std::vector<SourceRay>().swap(part);
+  for (std::size_t first = 0; first < chunks.size(); first += kWave) {
+    const std::size_t count = std::min(kWave, chunks.size() - first);
+    parallel_for(count, 1, [&](std::size_t c) {
+      progress.check();
+      const Chunk& chunk = chunks[first + c];
+      left[c].clear();
+      for (uint64_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
+        const SourceRay ray = bench.trace(chunk.lamp, i, counts[chunk.lamp]);
+        if (ray.flux > 0) left[c].push_back(ray);
+      }
+      progress.at("trace the luminaire", ++done, chunks.size());
+    });
+    for (std::size_t c = 0; c < count; ++c) sink(left[c]);
   }
+}
+
+std::vector<SourceRay> trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer,
+                                       const Lamps& lamps, const BenchParams& params,
+                                       const Progress& progress) {
+  std::vector<SourceRay> rays;
+  trace_luminaire(
+      scene, world, tracer, lamps, params,
+      [&](std::span<const SourceRay> some) { rays.insert(rays.end(), some.begin(), some.end()); }, progress);
   return rays;
 }
 

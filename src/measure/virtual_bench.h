@@ -3,6 +3,8 @@
 // would tell.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "light/lamp.h"
@@ -17,12 +19,17 @@ struct BenchParams {
   uint32_t seed = 1;
 };
 
-/// Rays of all lamps, reflected by the luminaire's other parts until they leave it: metals are mirrors about
-/// the interpolated normal, however rough; other surfaces are Lambertian. Flux is luminance-weighted, in lm,
-/// and what is coloured keeps its colour; each lamp has rays in proportion to its flux. A ray starts where it
-/// was last reflected. The luminaire hangs in its scene: nadir is -y, C0 +x, C90 -z. The same bits at any
-/// number of threads.
+/// Calls sink with blocks of the rays of all lamps, reflected by the luminaire's other parts until they leave
+/// it: metals are mirrors about the interpolated normal, however rough; other surfaces are Lambertian. Flux
+/// is luminance-weighted, in lm, and what is coloured keeps its colour; each lamp has rays in proportion to
+/// its flux. A ray starts where it was last reflected. The luminaire hangs in its scene: nadir is -y, C0 +x,
+/// C90 -z. The same bits in the same order at any number of threads; at most a million rays are held.
 /// @throws Error: no lamp, or one at infinity
+void trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer, const Lamps& lamps,
+                     const BenchParams& params, const std::function<void(std::span<const SourceRay>)>& sink,
+                     const Progress& progress = {});
+
+/// All of them at once, 40 bytes each.
 std::vector<SourceRay> trace_luminaire(const Scene& scene, const World& world, const Tracer& tracer,
                                        const Lamps& lamps, const BenchParams& params,
                                        const Progress& progress = {});
