@@ -55,12 +55,8 @@ LuminaireSource read_luminaire(const std::string& file, double step, const Progr
   LuminaireSource out;
   if (lower(std::filesystem::path(file).extension().string()) == ".exr") {
     LightField field = read_light_field(file);
-    const double lumens = flux(field);
     out.field = describe(field);
     out.photometry = far_field(NearLamp(std::move(field)), step);
-    // The table's steps are wider than its beam may be; the flux is known.
-    const double table = flux(out.photometry);
-    for (double& candela : out.photometry.candela) candela *= table > 0 ? lumens / table : 1;
     return out;
   }
   FarFieldBins bins(static_cast<int>(std::lround(360 / step)), static_cast<int>(std::lround(180 / step)));

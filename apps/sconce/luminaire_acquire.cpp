@@ -80,10 +80,7 @@ int run_luminaire_acquire(int argc, const char* const* argv) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   const LightField& field = acquired.field();
-  const double lumens = flux(field);
-  if (!(lumens > 0))
-    throw Error(folder, fmt::format("sends {:.4g} lm in all", lumens),
-                "light; did [pictures] name and negative change places?");
+  const double lumens = light_of(field, folder);
   write_light_field(output, field, as);
   if (options.json)
     fmt::print(

@@ -59,8 +59,8 @@ glm::dvec3 bilinear(const Image& image, double x, double y) {
   const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
   const double u = fx - x0, v = fy - y0;
   const auto at = [&](int px, int py) {
-    const Rgb v = image.rgb_at(px, py);
-    return glm::dvec3(v.r, v.g, v.b);
+    const Rgb texel = image.rgb_at(px, py);
+    return glm::dvec3(texel.r, texel.g, texel.b);
   };
   return (1 - v) * ((1 - u) * at(x0, y0) + u * at(x1, y0)) + v * ((1 - u) * at(x0, y1) + u * at(x1, y1));
 }

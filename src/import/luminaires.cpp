@@ -17,15 +17,6 @@ namespace {
 
 constexpr double kFarStep = 5;  // degrees of the far field that a light field also is
 
-/// The far field of a light field, brought to the same flux.
-Photometry table_of(const LightField& field, const fs::path& file) {
-  Photometry out = far_field(NearLamp(field), kFarStep);
-  const double table = flux(out), images = flux(field);
-  if (!(table > 0 && images > 0)) throw Error(file.string(), "is a light field without light");
-  for (double& candela : out.candela) candela *= images / table;
-  return out;
-}
-
 }  // namespace
 
 Id<Luminaire> LuminaireFiles::load(const fs::path& file) {
@@ -34,7 +25,8 @@ Id<Luminaire> LuminaireFiles::load(const fs::path& file) {
   const std::string name = file.filename().string();
   if (lower(file.extension().string()) == ".exr") {
     auto field = std::make_shared<LightField>(read_light_field(file));
-    Photometry far = table_of(*field, file);
+    light_of(*field, file.string());
+    Photometry far = far_field(NearLamp(*field), kFarStep);
     scene_.luminaires.push_back({name, std::move(far), std::move(field)});
     return known_[file] = Id<Luminaire>(scene_.luminaires.size() - 1);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photometry/light_field.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -215,6 +217,14 @@ double flux(const LightField& field) {
   double sum = 0;
   for (const float v : field.irradiance) sum += static_cast<double>(v);
   return sum * field.pixel * field.pixel;
+}
+
+double light_of(const LightField& field, const std::string& where) {
+  const double lumens = flux(field);
+  if (!(lumens > 0))
+    throw Error(where, fmt::format("sends {:.4g} lm in all", lumens),
+                "light; negative where photographs and their negatives changed places");
+  return lumens;
 }
 
 }  // namespace sconce

@@ -77,6 +77,8 @@ LightField widened(const LightField& field);
 
 /// Flux through the images: sum over terms and pixels of E x pixel area, lm.
 double flux(const LightField& field);
+/// That of a field that is to shine. @throws Error naming `where`: it has none, or less
+double light_of(const LightField& field, const std::string& where);
 
 /// Red, green or blue of a coloured light field as a grey one, lux of that channel.
 LightField channel_of(const LightField& field, int channel);
@@ -142,7 +144,8 @@ class NearLamp {
   std::vector<double> areas_;  ///< summed-area tables of E', one per term
 };
 
-/// The far field of a light field, and with it where the field is no longer needed. Type C, `step` degrees.
+/// The far field of a light field, and with it where the field is no longer needed, brought to the flux of
+/// its images. Type C, `step` degrees.
 Photometry far_field(const NearLamp& lamp, double step);
 
 /// Four neighbouring terms in one by direction, moved to their middle: what is left to see of them from far

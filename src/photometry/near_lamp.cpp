@@ -246,6 +246,9 @@ Photometry far_field(const NearLamp& lamp, double step) {
       out.candela.push_back(std::max(0.0, e) * static_cast<double>(far) * static_cast<double>(far));
     }
   }
+  // Steps are wider than a beam may be; the flux is known.
+  const double table = flux(out), images = flux(field);
+  for (double& candela : out.candela) candela *= table > 0 && images > 0 ? images / table : 1;
   return out;
 }
 
