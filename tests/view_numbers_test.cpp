@@ -171,6 +171,41 @@ TEST_F(ViewTest, PicturesAreSoughtWithThingsWhereTheyAre) {
   EXPECT_GT(std::abs(gains("home.toml")["left"] - 0.6), 0.1);
 }
 
+// The reference beside the lightmap is traced with the lamp where it went: its floor is as bright as that of
+// a scene which has it there, and as the lightmap's.
+TEST_F(ViewTest, ReferencesFollowMovedLamps) {
+  bake_movable();
+  Scene moved = test::two_lamp_room();
+  for (Instance& instance : moved.instances)
+    if (instance.name == "lamp left") instance.transform[3] += glm::vec4(0.3f, -0.9f, 0.3f, 0);
+  folder_.write("moved.glb", write_glb(moved, "test"));
+  const auto baked =
+      test::run_sconce({"bake", path("moved.glb"), "--density", "4", "--samples", "1", "--quiet"});
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  const auto floor_of = [&](const char* package, const std::string& more, double from) {
+    const auto outcome =
+        view("ev100 3\ntone linear\nset right=off\neye 0,0.5,0.9 0,0,-0.2\nlook reference\n" + more +
+                 "wait 6\npicture " + path("bare.png") + "\nscreenshot " + path("all.png") + "\n",
+             package);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Image8 bare = png("bare.png"), all = png("all.png");
+    double sum = 0;
+    int count = 0;
+    for (int y = 44 + bare.height * 7 / 10; y < 44 + bare.height * 9 / 10; ++y)  // below the bar
+      for (int x = static_cast<int>(from * bare.width); x < static_cast<int>((from + 0.2) * bare.width);
+           ++x, ++count)
+        sum += static_cast<double>(
+            srgb_to_linear(all.data[3 * static_cast<std::size_t>(y * all.width + x) + 1] / 255.0f));
+    return sum / count;
+  };
+  const std::string move = "lamp \"lamp left\" -0.3,1.08,0.3\n";
+  const double truth = floor_of("moved.sconce", "", 0.55);
+  EXPECT_GT(truth, 0.05);
+  EXPECT_LT(truth, 0.9);
+  EXPECT_NEAR(floor_of("x.sconce", move, 0.55), truth, 0.03 * truth);
+  EXPECT_GT(std::abs(floor_of("x.sconce", "", 0.55) - truth), 0.1 * truth);
+}
+
 // A lamp that became a shader counts, as paths from the same lamp do and the command has it.
 TEST_F(ViewTest, FiguresKnowShaders) {
   bake_movable();

@@ -72,6 +72,10 @@ void Viewer::follow_moves() {
   const bool stood = now == state_.measured && state_.objects.mover != nullptr;
   state_.measured = now, state_.measured_version = version;
   if (stood && measuring_.running()) return;  // bounces have followed: rays knew them already
+  if (state_.look == LookKind::reference)
+    refine_reference();
+  else
+    tracing_.stop(), reference_.reset(), coming_.reset(), traced_.reset();
   if (!state_.away()) {
     state_.planes = state_.opened->planes;
     for (Goal& goal : state_.goals) goal.lux = goal.baked;

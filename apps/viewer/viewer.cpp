@@ -247,8 +247,14 @@ void Viewer::trace_reference(int part) {
   const int height = std::max(static_cast<int>(state_.canvas_size.y) / part, 16);
   coming_.emplace(rays(), state_.camera, PictureParams{.width = width, .height = height, .samples = 1});
   coming_part_ = part;
-  tracing_.start([meter = std::make_shared<PointMeter>(coming_->meter()), opened = state_.opened,
-                  passes = part == kReferencePart ? 128 : 1,
+  const Movers movers = state_.movers();
+  std::shared_ptr<const StandingScene> standing;
+  if (movers.any())
+    standing =
+        std::make_shared<StandingScene>(standing_scene(rays().scene(), rays().world(), movers.standing()));
+  const auto meter = std::make_shared<PointMeter>(coming_->meter(standing));
+  meter->add(rays(), movers.known(coming_->points()));
+  tracing_.start([meter, opened = state_.opened, passes = part == kReferencePart ? 128 : 1,
                   mover = state_.objects.mover](const Progress& progress, const auto& publish) {
     for (int pass = 0; pass < passes; ++pass) {
       meter->pass(8, progress);

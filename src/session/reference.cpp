@@ -31,8 +31,9 @@ ReferencePicture::ReferencePicture(const View& view, const Camera& camera, const
     }
 }
 
-PointMeter ReferencePicture::meter() const {
-  return PointMeter(*view_, points_, ReceiverKind::pixel);
+PointMeter ReferencePicture::meter(std::shared_ptr<const StandingScene> standing) const {
+  return standing ? PointMeter(std::move(standing), points_, ReceiverKind::pixel)
+                  : PointMeter(*view_, points_, ReceiverKind::pixel);
 }
 
 Image ReferencePicture::picture(const MeasuredLight& light, const MixSpec& mix) const {

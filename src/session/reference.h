@@ -13,7 +13,10 @@ class ReferencePicture {
   ReferencePicture(const View& view, const Camera& camera, const PictureParams& params);
 
   /// Makes a meter for what is seen; its light() is what picture() takes.
-  PointMeter meter() const;
+  /// @param standing  all as it stands, if not as the view has it: lamps shine from where they went, their
+  /// bodies are seen where they were, as in the lightmap's picture
+  PointMeter meter(std::shared_ptr<const StandingScene> standing = nullptr) const;
+  std::span<const SurfacePoint> points() const { return points_; }
   /// Linear, cd/m2. @param light  of meter(), any pass
   Image picture(const MeasuredLight& light, const MixSpec& mix) const;
   const Camera& camera() const { return camera_; }
