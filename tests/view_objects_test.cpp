@@ -49,8 +49,9 @@ TEST_F(ViewObjects, AnObjectIsPutElsewhereAndItsLightFollows) {
 
   const std::string early = read_file(path("early.txt")), now = read_file(path("objects.txt")),
                     tugged = read_file(path("tugged.txt"));
-  if (!early.empty())
+  if (!early.empty()) {
     EXPECT_NE(early.find("# bounces are those of other places"), std::string::npos) << early;
+  }
   std::size_t slots = 0, all = 0, texels = 0, all_texels = 0;
   float x = 0, y = 0, z = 0, turn = 0;
   ASSERT_EQ(std::sscanf(now.c_str(),
