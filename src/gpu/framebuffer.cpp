@@ -11,13 +11,13 @@ Framebuffer::Framebuffer(const Texture& color, int layer, const Texture* depth,
                          std::span<const Texture* const> more)
     : Framebuffer(color.params()) {
   attach(GL_COLOR_ATTACHMENT0, color, layer);
+  color_ = {color.handle(), layer, 1};
   std::vector<GLenum> points{GL_COLOR_ATTACHMENT0};
   for (const Texture* texture : more) {
     points.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(points.size()));
     attach(points.back(), *texture, layer);
   }
-  colors_ = static_cast<int>(points.size());
-  glNamedFramebufferDrawBuffers(handle_, colors_, points.data());
+  glNamedFramebufferDrawBuffers(handle_, static_cast<GLsizei>(points.size()), points.data());
   if (depth != nullptr) attach_depth(*depth, 0);
   check();
 }
@@ -29,7 +29,7 @@ Framebuffer::Framebuffer(DepthOnly, const Texture& depths, int layer) : Framebuf
 
 Framebuffer::Framebuffer(DepthOnly, const Texture& depths) : Framebuffer(depths.params()) {
   glNamedFramebufferTexture(handle_, GL_DEPTH_ATTACHMENT, depths.handle(), 0);
-  depth_ = depths.handle(), layers_ = depths.params().layers;
+  depth_ = {depths.handle(), 0, depths.params().layers};
   check();
 }
 
@@ -42,7 +42,7 @@ void Framebuffer::attach(GLenum point, const Texture& texture, int layer) const 
 
 void Framebuffer::attach_depth(const Texture& texture, int layer) {
   attach(GL_DEPTH_ATTACHMENT, texture, layer);
-  depth_ = texture.handle(), layer_ = layer, layers_ = 1;
+  depth_ = {texture.handle(), layer, 1};
 }
 
 void Framebuffer::check() const {
@@ -57,13 +57,17 @@ void Framebuffer::use() const {
   glViewport(0, 0, width_, height_);
 }
 
-void Framebuffer::clear() const {
+// By the textures: on NVIDIA's driver 580 a framebuffer's clear came, now and then, after the draws that
+// followed it.
+void Framebuffer::clear(const Part& part, GLenum format) const {
   const float zero[4] = {0, 0, 0, 0};
-  for (int i = 0; i < colors_; ++i) glClearNamedFramebufferfv(handle_, GL_COLOR, i, zero);
-  // By the texture: after a framebuffer's depth was cleared to 0, NVIDIA's driver 580 dropped tiles of
-  // triangles that are greater.
-  if (depth_ != 0)
-    glClearTexSubImage(depth_, 0, 0, 0, layer_, width_, height_, layers_, GL_DEPTH_COMPONENT, GL_FLOAT, zero);
+  if (part.texture != 0)
+    glClearTexSubImage(part.texture, 0, 0, 0, part.first, width_, height_, part.layers, format, GL_FLOAT,
+                       zero);
+}
+
+void Framebuffer::clear() const {
+  clear(color_, GL_RGBA), clear(depth_, GL_DEPTH_COMPONENT);
 }
 
 void Framebuffer::read(GLenum format, GLenum type, void* pixels) const {

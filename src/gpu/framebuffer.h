@@ -26,7 +26,7 @@ class Framebuffer {
 
   /// Draws go here, to all of it.
   void use() const;
-  /// Colours become 0, depth 0 (infinitely far, see Picture).
+  /// The first colour becomes 0, depth 0 (infinitely far, see Picture).
   void clear() const;
   /// Reads width x height pixels of the first colour back, tightly packed. @param pixels  of that size
   void read(GLenum format, GLenum type, void* pixels) const;
@@ -38,11 +38,16 @@ class Framebuffer {
   void attach(GLenum point, const Texture& texture, int layer) const;
   void attach_depth(const Texture& texture, int layer);
   void check() const;
+  /// Layers of a texture that are drawn to.
+  struct Part {
+    GLuint texture = 0;
+    int first = 0, layers = 0;
+  };
+  void clear(const Part& part, GLenum format) const;
 
   GLuint handle_ = 0;
-  int width_, height_, colors_ = 0;
-  GLuint depth_ = 0;            ///< a texture
-  int layer_ = 0, layers_ = 0;  ///< of it
+  int width_, height_;
+  Part color_, depth_;
 };
 
 }  // namespace sconce::gpu

@@ -79,9 +79,6 @@ Program::Program(const std::string& name, std::initializer_list<std::pair<GLenum
   for (const auto& shader : shaders) glAttachShader(handle_, shader->handle());
   link(name);
   for (const auto& shader : shaders) glDetachShader(handle_, shader->handle());
-  // NVIDIA's driver 580: the first picture that a new program drew while earlier ones were still being drawn
-  // was empty, now and then.
-  glFinish();
 }
 
 Program::Program(const std::string& name, std::string_view vertex, std::string_view fragment)
