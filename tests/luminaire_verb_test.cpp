@@ -58,6 +58,17 @@ TEST(LuminaireLamps, BrokenOnesAndWatts) {
   EXPECT_EQ(among.code, 1);
   EXPECT_NE(among.err.find("Truncated Profile - 01.IES:25: ends before"), std::string::npos) << among.err;
   EXPECT_NE(among.out.find("sample4.ldt: 5543.9 lm, rendered 5543.9 lm"), std::string::npos) << among.out;
+  // Folders: all lamps in them, and what there was in all.
+  const auto folder =
+      run_sconce({"luminaire", "check", (data / "tm25").string(), (data / "ies/ies_rescale").string()});
+  EXPECT_EQ(folder.code, 1);
+  EXPECT_NE(folder.out.find("farfield.TM25ray: 31350.1 W, rendered 31349.5 W\n"), std::string::npos)
+      << folder.out;
+  EXPECT_EQ(folder.out.find("no luminous opening"), std::string::npos) << "rays start somewhere";
+  EXPECT_NE(folder.out.find("\n13 files: 7 in order, 5 with warnings, 1 not read\n"), std::string::npos)
+      << folder.out;
+  const TemporaryFolder none;
+  EXPECT_EQ(run_sconce({"luminaire", "check", (none / "").string()}).code, 1);
   const auto watts =
       run_sconce({"luminaire", "field", (data / "tm25/CreatePointSourceRayFile/farfield.TM25ray").string(),
                   "-o", "x.exr"});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <numbers>
 
@@ -45,6 +47,32 @@ std::string text_of(const UgrTable& ugr) {
 
 constexpr double kStep = 2.5;     // degrees, of a table made of rays or of a light field
 constexpr int kDiagramScale = 2;  // pixels per unit of a diagram
+
+/// "13032.0", "3.54": to a tenth, or three digits.
+std::string flux_text(double lumens) {
+  return lumens < 100 ? fmt::format("{:.3g}", lumens) : fmt::format("{:.1f}", lumens);
+}
+
+/// Lamps in folders, in the order of their names; files as they are.
+std::vector<std::string> with_folders(const std::vector<std::string>& given) {
+  static const std::vector<std::string> kEndings = {".ies", ".ldt", ".gldf", ".tm25ray",
+                                                    ".ray", ".sdf", ".dis"};
+  std::vector<std::string> out;
+  for (const std::string& path : given) {
+    if (!std::filesystem::is_directory(path)) {
+      out.push_back(path);
+      continue;
+    }
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+      if (entry.is_regular_file() &&
+          std::ranges::find(kEndings, lower(entry.path().extension().string())) != kEndings.end())
+        out.push_back(entry.path().string());
+    std::sort(out.begin() + first, out.end());
+    if (out.begin() + first == out.end()) throw Error(path, "holds no lamp", join(kEndings, ", "));
+  }
+  return out;
+}
 
 bool is_png(const std::filesystem::path& file) {
   return lower(file.extension().string()) == ".png";
@@ -91,9 +119,9 @@ int run_luminaire_check(int argc, const char* const* argv) {
                   "A doctor for photometric files: flux stated, integrated and rendered, headers, gaps, "
                   "glare; of rays and light fields their far field. Exit code 3 where "
                   "something is wrong, 1 where a file cannot be read.",
-                  {"sconce luminaire check lamp.ldt", "sconce luminaire check lamps/*.ies --quiet",
+                  {"sconce luminaire check lamp.ldt", "sconce luminaire check lamps/",
                    "sconce luminaire render {FILE} -o wall.png"});
-  options.positionals("file", &files, kAnyLamp, true);
+  options.positionals("file", &files, fmt::format("{}; folders: all lamps in them", kAnyLamp), true);
   options.flag("--ugr", &ugr, "print the UGR table of the standard rooms (CIE 117, CIE 190)");
   options.option("--diagram", &diagram, "write the polar diagram, .svg or .png; with several files a folder");
   options.option("--isolux", &isolux,
@@ -101,12 +129,13 @@ int run_luminaire_check(int argc, const char* const* argv) {
   options.flag("--png", &png, "diagrams in folders as PNG rather than SVG");
   options.option("--height", &height, "isolux: metres from the lamp down to the floor");
   if (const auto code = options.parse(argc, argv)) return *code;
+  files = with_folders(files);
   if (!(height > 0)) throw UsageError("--height", "is not positive", "metres > 0");
   for (const auto& [name, target] : {std::pair("--diagram", &diagram), std::pair("--isolux", &isolux)})
     if (files.size() == 1 && !target->empty() && !is_png(*target) &&
         lower(std::filesystem::path(*target).extension().string()) != ".svg")
       throw UsageError(name, "'" + *target + "' names no format", ".svg, .png");
-  bool sick = false, broken = false;
+  std::size_t sick = 0, broken = 0;
   Json report = Json::array();
   for (const std::string& target : {diagram, isolux})
     if (!target.empty() && files.size() > 1) std::filesystem::create_directories(target);
@@ -121,18 +150,22 @@ int run_luminaire_check(int argc, const char* const* argv) {
       throw;
     } catch (const Error& error) {
       if (files.size() == 1) throw;
-      broken = true;
+      ++broken;
       report.push_back({{"file", file}, {"error", error.what()}});
+      std::fflush(stdout);  // in its place among the others, where both go to one file
       fmt::print(stderr, "sconce luminaire check: {}\n", error.what());
       continue;
     }
     const Photometry& p = source.photometry;
     std::vector<Finding> findings = examine(p);
+    // Rays and light fields state no flux and are no points: only their far field is one.
+    if (source.rays || !source.field.empty())
+      std::erase_if(findings, [](const Finding& f) { return !f.warning; });
     // Of a photometric file these are its notes, which are examined.
     if (source.rays)
       for (const std::string& line : said) findings.push_back({true, line});
     if (source.in_watts())
-      findings.push_back({true, "its rays are in watts: figures in lm, cd and lx are watts, too"});
+      findings.push_back({true, "its rays are in watts; luminaire convert --lumens makes lumens of them"});
     const double lumens = flux(p), rendered = rendered_flux(p);
     const std::optional<UgrTable> table = ugr_of(p);
     const std::string stem = std::filesystem::path(file).stem().string();
@@ -147,8 +180,8 @@ int run_luminaire_check(int argc, const char* const* argv) {
     if (!diagram.empty()) draw(diagram, polar_diagram(p, stem));
     if (!isolux.empty()) draw(isolux, isolux_diagram(p, stem, height));
     Json found = Json::array();
+    sick += std::ranges::any_of(findings, &Finding::warning) ? 1 : 0;
     for (const Finding& finding : findings) {
-      sick |= finding.warning;
       found.push_back({{"warning", finding.warning}, {"text", finding.text}});
     }
     Json entry = {{"file", file},
@@ -159,8 +192,9 @@ int run_luminaire_check(int argc, const char* const* argv) {
     if (table) entry["ugr"] = table->values;
     report.push_back(std::move(entry));
     if (options.json || options.quiet) continue;
-    fmt::print("{}: {:.1f} lm, rendered {:.1f} lm{}\n", file, lumens, rendered,
-               p.stated ? fmt::format(", stated {:.1f} lm", *p.stated) : "");
+    const char* unit = source.in_watts() ? "W" : "lm";
+    fmt::print("{}: {} {}, rendered {} {}{}\n", file, flux_text(lumens), unit, flux_text(rendered), unit,
+               p.stated ? fmt::format(", stated {} lm", flux_text(*p.stated)) : "");
     for (const Finding& finding : findings)
       fmt::print("  {}{}\n", finding.warning ? "warning: " : "", finding.text);
     if (ugr && table)
@@ -169,9 +203,13 @@ int run_luminaire_check(int argc, const char* const* argv) {
           lumens, text_of(*table));
     if (ugr && !table) fmt::print("  no UGR table: the file does not say how large the luminous area is\n");
   }
-  if (options.json) fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  if (options.json)
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  else if (!options.quiet && files.size() > 1)
+    fmt::print("{} files: {} in order, {} with warnings, {} not read\n", files.size(),
+               files.size() - sick - broken, sick, broken);
   if (files.size() == 1) options.next(files);
-  return broken ? kFailed : sick ? kDiffers : kDone;
+  return broken > 0 ? kFailed : sick > 0 ? kDiffers : kDone;
 }
 
 }  // namespace sconce::app

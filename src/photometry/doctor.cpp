@@ -42,13 +42,14 @@ class Doctor {
 
   void check_flux() {
     const double lamps = p_.lamps.empty() ? 0 : p_.lamps.front().lumens;
-    if (!p_.absolute && lamps > 0 && flux_ > lamps * (1 + kTolerance))
+    const double off = p_.stated ? flux_ / *p_.stated - 1 : 0;
+    const bool told = off > kTolerance && *p_.stated > lamps * (1 - kTolerance);  // below: the same flux
+    if (!p_.absolute && lamps > 0 && flux_ > lamps * (1 + kTolerance) && !told)
       warn(fmt::format("gives {:.0f} lm, more than the {:.0f} lm of its lamps", flux_, lamps));
     if (!p_.stated) {
       remark("the file does not state the luminaire's flux");
       return;
     }
-    const double off = flux_ / *p_.stated - 1;
     if (std::abs(off) <= kTolerance) return;
     const FluxBounds bounds = flux_bounds(p_);
     const bool coarse = *p_.stated >= bounds.low && *p_.stated <= bounds.high;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/test_data.h"
+#include "image/stroke_font.h"
 #include "photometry/diagram.h"
 #include "photometry/formats.h"
 
@@ -87,6 +88,51 @@ TEST(Diagram, IsoluxLinesLieWhereTheyShould) {
   EXPECT_GT(points, 100);
 }
 
+/// Intensities 1000 cd down to `edge` degrees, 1 cd from there to `end`.
+Photometry beam(double edge, double end) {
+  Photometry p = uniform();
+  p.polars = {0, edge, edge + 1, end};
+  p.candela.clear();
+  for (std::size_t a = 0; a < p.azimuths.size(); ++a) p.candela.insert(p.candela.end(), {1000, 1000, 1, 1});
+  return p;
+}
+
+// Lines that cross the picture alone are named, each once beside it and once on itself, the values apart; a
+// narrow beam has a narrow floor.
+TEST(Diagram, IsoluxNamesWhatItShows) {
+  const auto labels = [](const Drawing& drawing, const std::string& text) {
+    std::vector<glm::dvec2> out;
+    for (const Drawing::Label& label : drawing.labels)
+      if (label.text == text) out.push_back(label.at);
+    return out;
+  };
+  const Drawing wide = isolux_diagram(uniform(), "lamp", 1);
+  EXPECT_EQ(labels(wide, "50 lx").size(), 1u);
+  const auto fifty = labels(wide, "50"), twenty = labels(wide, "20");
+  ASSERT_EQ(fifty.size(), 1u);
+  ASSERT_EQ(twenty.size(), 2u);
+  const double radius = 100 * std::sqrt(std::pow(2, 2.0 / 3) - 1);
+  EXPECT_NEAR(std::hypot(fifty[0].x - 250, fifty[0].y - 4 - 280), radius, 0.3);
+  // 100 cos3 is 3.7 lx in the corners: no line of 2.
+  EXPECT_GE(labels(wide, "5").size(), 1u);
+  EXPECT_EQ(labels(wide, "2").size(), 2u) << "metres alone";
+  EXPECT_EQ(labels(wide, "1.5").size(), 2u) << "metres to 2";
+  const Drawing narrow = isolux_diagram(beam(10, 90), "lamp", 1);
+  EXPECT_EQ(labels(narrow, "1.5").size(), 0u);
+  EXPECT_EQ(labels(narrow, "0.4").size(), 2u) << "metres to half";
+}
+
+// The lower half alone unless light that one can see goes up; long names end in dots within the picture.
+TEST(Diagram, PolarFitsItsLampAndItsName) {
+  EXPECT_EQ(polar_diagram(beam(10, 90), "lamp").height, polar_diagram(beam(10, 180), "lamp").height);
+  EXPECT_GT(polar_diagram(uniform(), "lamp").height, polar_diagram(beam(10, 90), "lamp").height);
+  const std::string name(200, 'W');
+  const Drawing drawing = polar_diagram(uniform(), name);
+  const Drawing::Label& title = drawing.labels.front();
+  EXPECT_EQ(title.text.substr(title.text.size() - 3), "...");
+  EXPECT_LT(stroke_text_width(title.text, title.size), drawing.width);
+}
+
 // The same drawing as pixels: what lies on the line of 50 lx has its colour, what lies beside it is white;
 // the dashed curve of a lamp that is alike all around lies on the solid one.
 TEST(Diagram, PixelsShowWhatTheDrawingHas) {
@@ -102,8 +148,8 @@ TEST(Diagram, PixelsShowWhatTheDrawingHas) {
   };
   const double radius = 100 * std::sqrt(std::pow(2, 2.0 / 3) - 1), aslant = std::sqrt(0.5);
   const Color8 line = isolux.lines.at(1).color, white{255, 255, 255};
-  EXPECT_EQ(at(picture, 250 + aslant * radius, 280 + aslant * radius), line);
-  EXPECT_EQ(at(picture, 250 + aslant * (radius - 4), 280 + aslant * (radius - 4)), white);
+  EXPECT_EQ(at(picture, 250 - aslant * radius, 280 + aslant * radius), line);
+  EXPECT_EQ(at(picture, 250 - aslant * (radius - 4), 280 + aslant * (radius - 4)), white);
   // 100 cd in rings of 20: the curve is the outermost circle, of 200 units.
   const Drawing polar = polar_diagram(uniform(), "lamp");
   const Image8 curves = picture_of(polar, kScale);
@@ -114,7 +160,7 @@ TEST(Diagram, PixelsShowWhatTheDrawingHas) {
     red += c == Color8{0xc0, 0x20, 0x20}, blue += c == Color8{0x20, 0x40, 0xc0};
     other += c == white;
   }
-  EXPECT_NEAR(blue, 0.7 * 690, 0.1 * 690) << "dashes of 6, rounded by 2, in 10";
+  EXPECT_NEAR(blue, 0.67 * 690, 0.1 * 690) << "dashes of 8 in 12";
   EXPECT_GT(red, 80);
   EXPECT_EQ(other, 0);
 }

@@ -13,7 +13,6 @@ namespace sconce {
 
 namespace {
 
-constexpr double kGap = 2.0 / 3;             // of a dash
 constexpr double kPen = 0.085, kRim = 0.36;  // widths of letters' lines and of the rim, of a font's size
 
 std::string hex(const Color8& c) {
@@ -31,6 +30,11 @@ std::string escaped_xml(const std::string& text) {
       out += c;
   }
   return out;
+}
+
+/// Dashes have round ends, which add the width of the line to them.
+double straight(const Drawing::Line& line) {
+  return std::max(0.01, line.dash - line.width);
 }
 
 /// What lines cover of each pixel of a rectangle, 0 to 1.
@@ -89,11 +93,11 @@ void trace(Coverage& coverage, const Drawing::Line& line, const std::vector<glm:
       coverage.add(scale * a, scale * b, scale * line.width);
       continue;
     }
-    const double period = line.dash * (1 + kGap);
+    const double dash = straight(line), period = line.dash + line.gap;
     for (double at = 0; at < length;) {
       const double phase = std::fmod(walked + at, period);
-      const bool drawn = phase < line.dash;
-      const double end = std::min(length, at + (drawn ? line.dash : period) - phase + 1e-9);
+      const bool drawn = phase < dash;
+      const double end = std::min(length, at + (drawn ? dash : period) - phase + 1e-9);
       if (drawn)
         coverage.add(scale * (a + (b - a) * (at / length)), scale * (a + (b - a) * (end / length)),
                      scale * line.width);
@@ -127,7 +131,9 @@ std::string svg_of(const Drawing& drawing) {
         path += fmt::format("{}{:.1f},{:.1f}", i == 0 ? "M" : "L", points[i].x, points[i].y);
     out += fmt::format(
         "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} d=\"{}\"/>\n", hex(line.color), line.width,
-        line.dash > 0 ? fmt::format(" stroke-dasharray=\"{:.3g} {:.3g}\"", line.dash, kGap * line.dash) : "",
+        line.dash > 0 ? fmt::format(" stroke-linecap=\"round\" stroke-dasharray=\"{:.3g} {:.3g}\"",
+                                    straight(line), line.dash + line.gap - straight(line))
+                      : "",
         path);
   }
   constexpr const char* kAnchors[] = {"start", "middle", "end"};

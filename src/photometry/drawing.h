@@ -15,7 +15,8 @@ struct Drawing {
     std::vector<std::vector<glm::dvec2>> strokes;
     Color8 color{};
     double width = 1;
-    double dash = 0;  ///< length of dashes, with gaps of two thirds; 0 = solid
+    double dash = 0;  ///< length of dashes; 0 = solid. As wide as the line: dots
+    double gap = 0;   ///< between them
   };
   struct Label {
     glm::dvec2 at{0};  ///< on the base line
