@@ -228,12 +228,12 @@ TEST(LuminaireVerb, InfoCheckConvert) {
   const std::string png = (folder / "isolux.png").string();
   EXPECT_EQ(run_sconce({"luminaire", "check", ldt, "--isolux", png, "--quiet"}).code, 0);
   EXPECT_EQ(read_image(png).width, 1000);
-  EXPECT_EQ(
-      run_sconce({"luminaire", "check", ldt, ies, "--png", "--diagram", (folder / "all").string(), "--quiet"})
-          .code,
-      0);
-  EXPECT_TRUE(
-      std::filesystem::exists(folder / "all" / (std::filesystem::path(ldt).stem().string() + ".png")));
+  EXPECT_EQ(run_sconce({"luminaire", "check", ldt, ies, ldt, "--png", "--diagram", (folder / "all").string(),
+                        "--quiet"})
+                .code,
+            0);
+  for (const char* name : {"sample4.png", "out.png", "sample4 2.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "all" / name)) << name;
   EXPECT_EQ(run_sconce({"luminaire", "check", ldt, "--diagram", (folder / "x.gif").string()}).code, 2);
   const auto ill =
       run_sconce({"luminaire", "check", (data / "ldt/eulumdat-ugr/input/sample_05.ldt").string()});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 #include "app.h"
@@ -136,6 +137,7 @@ int run_luminaire_check(int argc, const char* const* argv) {
         lower(std::filesystem::path(*target).extension().string()) != ".svg")
       throw UsageError(name, "'" + *target + "' names no format", ".svg, .png");
   std::size_t sick = 0, broken = 0;
+  std::map<std::string, int> named;
   Json report = Json::array();
   for (const std::string& target : {diagram, isolux})
     if (!target.empty() && files.size() > 1) std::filesystem::create_directories(target);
@@ -169,9 +171,11 @@ int run_luminaire_check(int argc, const char* const* argv) {
     const double lumens = flux(p), rendered = rendered_flux(p);
     const std::optional<UgrTable> table = ugr_of(p);
     const std::string stem = std::filesystem::path(file).stem().string();
+    const int namesakes = named[stem]++;  // files of other folders or formats
+    const std::string sheet = namesakes == 0 ? stem : fmt::format("{} {}", stem, namesakes + 1);
     const auto draw = [&](const std::filesystem::path& target, const Drawing& drawing) {
       const bool folder = files.size() > 1;
-      const std::filesystem::path to = folder ? target / (stem + (png ? ".png" : ".svg")) : target;
+      const std::filesystem::path to = folder ? target / (sheet + (png ? ".png" : ".svg")) : target;
       if (folder ? png : is_png(to))
         write_png(to, picture_of(drawing, kDiagramScale));
       else
