@@ -99,8 +99,8 @@ double NearLamp::from(const glm::dvec2& uv, const Vec3& x) const {
 
 double NearLamp::exact(const Vec3& x, const Vec3& normal, int points) const {
   if (!(x.z < 0)) return 0;
-  // At x light falls by z^2 / D^4 and by the cosine n.(uv - x) / z; g of eq. 5 has (d z / D^2)^2 / d^4 along
-  // the same line: what is left is linear in uv, and pixels depend on u and v apart.
+  // With D from uv to x and its depth z, light falls by z^2 / D^4 and the cosine n.(uv - x) / z; g of eq. 5
+  // is z^4 / (d^2 D^4) along the same line. What is left is linear in uv, and pixels depend on u and v apart.
   struct Point {
     int pixel;
     double cosine;
