@@ -56,7 +56,8 @@ class ByteLightmap : public gpu::LightSource {
   ByteLightmap(const gpu::Context& context, int side)
       : texture_(context, {.format = GL_RGBA8, .width = side, .height = side}, "lightmap") {}
   std::string glsl() const override {
-    return "uniform sampler2D lightmap;\nvec3 illuminance(vec2 uv, int page, vec3 offset) {\n  return texture(lightmap, "
+    return "uniform sampler2D lightmap;\nvec3 illuminance(vec2 uv, int page, vec3 offset) {\n  return "
+           "texture(lightmap, "
            "uv).rgb;\n}\n";
   }
   void bind(const gpu::Program& program, int unit) const override {
@@ -86,7 +87,7 @@ void mix_table(const gpu::Context& context, double bandwidth, int side) {
       const EncodedLayers at_screen = make_layers(groups, parse_encoding(encoding), kWidth, kHeight);
       const double moved = static_cast<double>(at_screen.bytes()) + 8.0 * kWidth * kHeight;
       const std::string name = fmt::format("{} x {}", groups, encoding);
-      const gpu::AtlasMix drawn(context, at_screen, tier);
+      const gpu::AtlasMix drawn(context, at_screen, tier, gpu::AtlasMix::Form::fragment);
       print_row(name + ", 1920 x 1080 texels, fragment", device_seconds(context, [&] { drawn.mix(weights); }),
                 moved, bandwidth);
       const gpu::AtlasMix computed(context, at_screen, tier, gpu::AtlasMix::Form::compute);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "gpu/lamp_program.h"
 #include "image/io.h"
 #include "relit_room.h"
 
@@ -154,6 +156,39 @@ TEST_F(RelightByOpenGl, BadInputIsOneLine) {
   EXPECT_EQ(holed.code, 0) << holed.err;
   EXPECT_NE(holed.err.find("nan.glsl: NaN or infinity, painted over: "), std::string::npos) << holed.err;
   for (const float v : read_exr(file("x.exr")).data) ASSERT_TRUE(std::isfinite(v));
+}
+
+/// Error's text of compiling a lamp.
+std::string complaint(const std::string& text, const std::vector<gpu::LampUniform>& uniforms = {}) {
+  const gpu::Context context;
+  try {
+    const gpu::LampProgram program("own.glsl", text);
+    gpu::LampShader lamp;
+    lamp.file = "own.glsl", lamp.uniforms = uniforms;
+    const gpu::LampValues values(context, lamp, program);
+    return "";
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+TEST(LightShader, MistakesAreShownWithTheUsersLine) {
+  const std::string wrong =
+      complaint("// one\nuniform float a;\nvec3 light(vec3 P, vec3 N) {\n  return vec3(b);\n}\n");
+  EXPECT_TRUE(wrong.starts_with("own.glsl:4: `return vec3(b);`: ")) << wrong;
+  EXPECT_EQ(wrong.find('\n'), std::string::npos) << wrong;
+  EXPECT_EQ(complaint("vec3 shine(vec3 P) { return P; }"),
+            "own.glsl: defines no light (allowed: vec3 light(vec3 P, vec3 N) { ... })");
+  const std::string good =
+      "uniform float width;\nuniform vec2 size;\nuniform sampler2D slide;\nvec3 light(vec3 P, vec3 N) {\n"
+      "  return texture(slide, P.xy * size).rgb * width;\n}\n";
+  EXPECT_EQ(complaint(good, {{"width", {2}, "2"}, {"size", {1, 2}, "1,2"}}), "");
+  const std::string unknown = complaint(good, {{"widh", {2}, "2"}});
+  EXPECT_NE(unknown.find("did you mean 'width'?"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("size"), std::string::npos) << unknown;
+  EXPECT_EQ(complaint(good, {{"size", {1}, "1"}}), "own.glsl: size: '1' does not fit (allowed: 2 numbers)");
+  const std::string missing = complaint(good, {{"slide", {}, "nowhere.png"}});
+  EXPECT_NE(missing.find("nowhere.png"), std::string::npos) << missing;
 }
 
 }  // namespace

@@ -26,6 +26,13 @@ TextureParams pages_of(const EncodedLayers& layers, const ShaderTier& tier) {
   return params;
 }
 
+AtlasMix::Form quicker_form(const Context& context, const EncodedLayers& layers, const ShaderTier& tier) {
+  const bool computes =
+      !context.capabilities().software &&
+      split_layers(context, layers, tier, ShaderSpec::Form::compute).size() <= layers.coefficients();
+  return computes ? AtlasMix::Form::compute : AtlasMix::Form::fragment;
+}
+
 }  // namespace
 
 bool PixelMix::possible(const Context& context, const EncodedLayers& layers, const ShaderTier& tier) {
@@ -70,6 +77,9 @@ AtlasMix::AtlasMix(const Context& context, const EncodedLayers& layers, const Sh
   // A data-centre card was seen, now and then, to mix what had not yet arrived.
   glFinish();
 }
+
+AtlasMix::AtlasMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier)
+    : AtlasMix(context, layers, tier, quicker_form(context, layers, tier)) {}
 
 AtlasMix::~AtlasMix() {
   glDeleteVertexArrays(1, &nothing_);

@@ -37,8 +37,10 @@ class AtlasMix : public LightSource {
   enum class Form : uint8_t { fragment, compute };
 
   /// @throws Error where the tier has no float textures, or the form cannot mix so many layers
-  AtlasMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier,
-           Form form = Form::fragment);
+  AtlasMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier, Form form);
+  /// By the quicker form: compute on graphics devices (bench/results/gpu_mix.md), if one shader can read all
+  /// layers of a coefficient.
+  AtlasMix(const Context& context, const EncodedLayers& layers, const ShaderTier& tier);
   ~AtlasMix() override;
 
   /// All pages. On the device it is done when that comes to it.
