@@ -83,7 +83,7 @@ int run_info(int argc, const char* const* argv) {
                             : is_package ? package_info(file, list_options)
                                          : scene_info(file, groups, list_options, progress);
   std::fputs((options.json ? report.json.dump(2) + "\n" : report.text).c_str(), stdout);
-  if (!is_package && !is_picture) options.next({file});
+  if (report.json.value("triangles", 0) > 0) options.next({file});
   return kDone;
 }
 

@@ -122,12 +122,13 @@ int run_relight(int argc, const char* const* argv) {
     const std::vector<ObjectPlace> places = moves.places();
     const WantedLamps wanted = moves.lamps.parse(preset, progress, places.empty());
     const Package package = settings.open(input);
+    std::optional<Operator> own_operator;  // missing, it is told before the scene is read
+    if (places.empty()) own_operator = find_operator(package, pixels ? picture.camera : "");
     const View home(package);
     const auto elsewhere =
         places.empty() ? nullptr : std::make_unique<ObjectsElsewhere>(package, home, places, progress);
     const View& view = elsewhere ? elsewhere->view() : home;
-    const Operator op =
-        elsewhere ? elsewhere->transfer() : find_operator(package, pixels ? picture.camera : "");
+    const Operator op = elsewhere ? elsewhere->transfer() : *std::move(own_operator);
     const std::optional<Operator> lobes =
         pixels && !picture.no_reflections ? find_lobes(package, op) : std::nullopt;
     device.reflections = !picture.no_reflections && (!pixels || lobes);
