@@ -13,6 +13,11 @@ namespace sconce {
 
 namespace {
 
+/// Words of a command line stand in no line.
+std::string place(const std::string& file, const SideNode& node) {
+  return node.line > 0 ? file + ":" + std::to_string(node.line) : file;
+}
+
 SideNode convert(const toml::node& node, const std::string& file) {
   SideNode out;
   out.line = static_cast<int>(node.source().begin.line);
@@ -67,16 +72,15 @@ SideTable::SideTable(std::string file, std::string title, const SideNode& node,
   if (table == nullptr) throw Error(where(), title_ + " is no table", title_);
   for (const auto& [key, value] : *table) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-    throw Error(file_ + ":" + std::to_string(value.line),
-                "unknown key '" + key + "' in " + title_ + did_you_mean(key, allowed), join(allowed, ", "));
+    throw Error(place(file_, value), "unknown key '" + key + "' in " + title_ + did_you_mean(key, allowed),
+                join(allowed, ", "));
   }
 }
 
 std::string SideTable::where(std::string_view key) const {
   const SideNode* item = key.empty() ? nullptr : node_.find(key);
-  const std::string place =
-      file_ + ":" + std::to_string(item != nullptr ? item->line : node_.line) + ": " + title_;
-  return key.empty() ? place : place + " " + std::string(key);
+  const std::string at = place(file_, item != nullptr ? *item : node_) + ": " + title_;
+  return key.empty() ? at : at + " " + std::string(key);
 }
 
 void SideTable::fail(std::string_view key, const std::string& what, const std::string& allowed) const {
