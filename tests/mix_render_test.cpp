@@ -121,10 +121,35 @@ TEST_F(MixRender, SequencesOfPictures) {
   // Brightening stays: exposure is the first frame's.
   ASSERT_EQ(mix("8-9", path("out.%d.png")).code, 0);
   EXPECT_GT(read_image(path("out.9.png")).data[0], 1.02f * read_image(path("out.8.png")).data[0]);
-  EXPECT_EQ(mix("11-12", path("out.%d.exr")).code, 1);
+  std::filesystem::remove(path("out.11.exr"));
+  const Outcome gap = mix("11-13", path("out.%d.exr"));
+  EXPECT_EQ(gap.code, 1);
+  EXPECT_NE(gap.err.find("shot.0012.exr: no such file, nor 1 more"), std::string::npos) << gap.err;
+  EXPECT_FALSE(std::filesystem::exists(path("out.11.exr")));
+  const Outcome over = mix("8-9", path("shot.%04d.exr"));
+  EXPECT_EQ(over.code, 2);
+  EXPECT_NE(over.err.find("light groups would be lost"), std::string::npos) << over.err;
   EXPECT_EQ(mix("12-11", path("out.%d.exr")).code, 2);
   EXPECT_EQ(mix("x", path("out.%d.exr")).code, 2);
   EXPECT_EQ(mix("8-9", path("out.exr")).code, 2);
+}
+
+TEST_F(MixRender, FramesThatAreNotAlikeAreTold) {
+  write_exr(path("s1.exr"), Image(2, 2, {"R", "G", "B", "RGBA_a.R", "RGBA_a.G", "RGBA_a.B"}),
+            PixelType::full);
+  write_exr(path("s2.exr"), Image(3, 2, {"R", "G", "B", "RGBA_b.R", "RGBA_b.G", "RGBA_b.B"}),
+            PixelType::full);
+  const auto mix = [&](const std::string& setting) {
+    return run_sconce({"mix", path("s%d.exr"), setting, "--frames", "1-2", "-o", path("o%d.exr")});
+  };
+  const Outcome all = mix("all=2");
+  EXPECT_EQ(all.code, 0);
+  EXPECT_NE(all.err.find("s2.exr: has the groups b, rest; the first frame has a, rest"), std::string::npos)
+      << all.err;
+  EXPECT_NE(all.err.find("s2.exr: is 3 x 2, the first frame 2 x 2"), std::string::npos) << all.err;
+  const Outcome named = mix("a=2");
+  EXPECT_EQ(named.code, 1);
+  EXPECT_NE(named.err.find("s2.exr: unknown light group 'a'"), std::string::npos) << named.err;
 }
 
 TEST_F(MixRender, InfoListsTheGroupsOfPictures) {
@@ -135,13 +160,19 @@ TEST_F(MixRender, InfoListsTheGroupsOfPictures) {
   EXPECT_EQ(text.code, 0);
   for (const char* word : {"Arnold", "key", "RGBA_key", "75.00 %", "Z"})
     EXPECT_NE(text.out.find(word), std::string::npos) << text.out;
-  write_exr(path("plain.exr"), Image(2, 2, {"R", "G", "B", "Z"}), PixelType::full);
+  Image twice(2, 2, {"R", "G", "B", "RGBA_key.R", "RGBA_key.G", "RGBA_key.B", "N.X", "N.Y", "N.Z"});
+  for (std::size_t i = 0; i < twice.data.size(); ++i) twice.data[i] = i % 9 < 3 ? 1 : 2;
+  write_exr(path("twice.exr"), twice, PixelType::full);
+  const Outcome over = run_sconce({"info", path("twice.exr")});
+  for (const char* word : {"100.00 % more light", "in 100 % of the pixels", "N.XYZ\n"})
+    EXPECT_NE(over.out.find(word), std::string::npos) << over.out;
+  write_exr(path("plain.exr"), Image(2, 2, {"R", "G", "B", "N.R", "N.G", "N.B", "Z"}), PixelType::full);
   for (const char* verb : {"info", "mix"}) {
     const Outcome none = run_sconce(
         std::string(verb) == "info" ? std::vector<std::string>{verb, path("plain.exr")}
                                     : std::vector<std::string>{verb, path("plain.exr"), "-o", path("x.exr")});
     EXPECT_EQ(none.code, 1);
-    EXPECT_NE(none.err.find("has no light-group layers"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("has no light-group layers among 'N'"), std::string::npos) << none.err;
     EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1) << none.err;
   }
 }

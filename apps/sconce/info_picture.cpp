@@ -2,12 +2,34 @@
 // `sconce info` of another renderer's picture.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "info.h"
 #include "mix/layered_image.h"
 #include "table.h"
 
 namespace sconce::app {
+
+namespace {
+
+/// Cryptomatte's twelve channels as three: "Object00.rgba".
+std::vector<std::string> by_layer(const std::vector<std::string>& channels) {
+  std::vector<std::string> layers;
+  std::string last;
+  for (const std::string& channel : channels) {
+    const std::size_t leaf = channel.rfind('.') + 1;
+    const std::string layer = channel.substr(0, leaf);
+    if (leaf > 0 && layer == last && channel.size() == leaf + 1)
+      layers.back() += channel[leaf];
+    else
+      layers.push_back(channel);
+    last = channel.size() == leaf + 1 ? layer : "";
+  }
+  return layers;
+}
+
+}  // namespace
 
 InfoReport picture_info(const std::filesystem::path& path, const std::string& groups_from) {
   const LayeredImage layered = find_layers(read_exr_parts(path), path.string(), groups_from);
@@ -38,10 +60,14 @@ InfoReport picture_info(const std::filesystem::path& path, const std::string& gr
   }
   report.text += fmt::format("light groups  {}\n", layered.channels.size()) + table.text();
   if (layered.beauty) {
-    report.text += fmt::format("rest          {:.2f} % of the light is in no group: '{}'\n", 100 * rest.share,
-                               layered.groups.back().name);
+    report.text +=
+        rest.share < -0.5e-4
+            ? fmt::format("rest          '{}': the groups have {:.2f} % more light than the whole picture\n",
+                          layered.groups.back().name, -100 * rest.share)
+            : fmt::format("rest          {:.2f} % of the light is in no group: '{}'\n",
+                          100 * std::max(rest.share, 0.0), layered.groups.back().name);
     if (rest.negative > 0)
-      report.text += fmt::format("              negative in {:.2g} % of the pixels\n", 100 * rest.negative);
+      report.text += fmt::format("              negative in {:.3g} % of the pixels\n", 100 * rest.negative);
     report.json["rest"] = {
         {"name", layered.groups.back().name}, {"share", rest.share}, {"negative", rest.negative}};
   } else {
@@ -49,7 +75,7 @@ InfoReport picture_info(const std::filesystem::path& path, const std::string& gr
   }
   std::vector<std::string> others;
   for (const std::size_t c : layered.others) others.push_back(image.channels[c]);
-  if (!others.empty()) report.text += fmt::format("others        {}\n", join(others, ", "));
+  if (!others.empty()) report.text += fmt::format("others        {}\n", join(by_layer(others), ", "));
   report.json["others"] = others;
   return report;
 }

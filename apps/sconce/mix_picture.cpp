@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -42,6 +45,22 @@ std::vector<int> parse_frames(const std::string& text) {
   return frames;
 }
 
+/// Told before the first frame is mixed: what is missing, and what would lose its light groups.
+void check_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  const auto there = [](const std::string& file) { return fs::exists(file); };
+  if (const auto gap = std::find_if_not(inputs.begin(), inputs.end(), there); gap != inputs.end()) {
+    const auto missing = std::count_if(gap, inputs.end(), std::not_fn(there));
+    throw Error(*gap, "no such file" + (missing > 1 ? fmt::format(", nor {} more of the frames", missing - 1)
+                                                    : std::string()));
+  }
+  std::set<fs::path> read;
+  for (const std::string& input : inputs) read.insert(fs::weakly_canonical(input));
+  for (const std::string& output : outputs)
+    if (output != "-" && read.contains(fs::weakly_canonical(output)))
+      throw UsageError("option '--output'",
+                       "'" + output + "' is a picture that is read; its light groups would be lost");
+}
+
 class PictureMixer {
  public:
   PictureMixer(const PictureMix& job, const MixOptions& settings, const Preset& preset,
@@ -52,7 +71,8 @@ class PictureMixer {
     const LayeredImage layered = read_layered(input, job_.groups_from);
     // What is to be said is said of the first frame.
     const bool first = out_.files.empty();
-    const MixSpec mix = settings_.make(preset_, layered.groups, first ? progress_ : Progress{});
+    if (!first) compare(layered, input);
+    const MixSpec mix = weights(layered, input, first);
     Image mixed = mix_layers(layered, mix);
     if (first) {
       warn(layered, input);
@@ -75,12 +95,39 @@ class PictureMixer {
       throw Error(input, "is neither a package nor an OpenEXR picture");
     }
   }
+  MixSpec weights(const LayeredImage& layered, const std::string& input, bool first) const {
+    if (first) return settings_.make(preset_, layered.groups, progress_);
+    try {
+      return settings_.make(preset_, layered.groups, {});
+    } catch (const UsageError& e) {  // the settings fit the first frame
+      throw Error(input, e.what());
+    }
+  }
+  /// Says once where frames are not alike.
+  void compare(const LayeredImage& layered, const std::string& input) {
+    const auto names = [](const std::vector<GroupInfo>& groups) {
+      std::vector<std::string> list;
+      for (const GroupInfo& group : groups) list.push_back(group.name);
+      return join(list, ", ");
+    };
+    const Image& image = layered.picture.image;
+    if (const std::string now = names(layered.groups), then = names(out_.groups);
+        !told_groups_ && now != then) {
+      progress_.warn(fmt::format("{}: has the groups {}; the first frame has {}", input, now, then));
+      told_groups_ = true;
+    }
+    if (!told_size_ && (image.width != out_.width || image.height != out_.height)) {
+      progress_.warn(fmt::format("{}: is {} x {}, the first frame {} x {}", input, image.width, image.height,
+                                 out_.width, out_.height));
+      told_size_ = true;
+    }
+  }
   void warn(const LayeredImage& layered, const std::string& input) const {
     for (const std::string& name : layered.picture.left_out)
       progress_.warn(input + ": '" + name + "' is left out: only flat, full channels are kept");
     if (const Rest rest = measure_rest(layered); rest.negative > 0)
       progress_.warn(
-          fmt::format("{}: the groups add up to more than the whole picture in {:.2g} % of the pixels; "
+          fmt::format("{}: the groups add up to more than the whole picture in {:.3g} % of the pixels; "
                       "'{}' is negative there",
                       input, 100 * rest.negative, layered.groups.back().name));
   }
@@ -101,6 +148,7 @@ class PictureMixer {
   const ToneOptions& tone_;
   const Progress& progress_;
   std::optional<Exposure> exposure_;
+  bool told_groups_ = false, told_size_ = false;
   MixedPictures out_;
 };
 
@@ -110,16 +158,19 @@ MixedPictures mix_pictures(const PictureMix& job, const MixOptions& settings, co
                            const ToneOptions& tone, const Progress& progress) {
   if (settings.raw) throw UsageError("option '--raw'", job.input + " is a picture", "a package");
   PictureMixer mixer(job, settings, preset, tone, progress);
-  if (job.frames.empty()) {
-    mixer.mix(job.input, job.output);
-    return mixer.take();
+  std::vector<std::string> inputs{job.input}, outputs{job.output};
+  if (!job.frames.empty()) {
+    inputs.clear(), outputs.clear();
+    for (const int frame : parse_frames(job.frames)) {
+      inputs.push_back(frame_file(job.input, frame, "the picture"));
+      outputs.push_back(frame_file(job.output, frame, "option '--output'"));
+    }
   }
-  const std::vector<int> frames = parse_frames(job.frames);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  check_files(inputs, outputs);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
     progress.check();
-    progress.at("mix", i, frames.size());
-    mixer.mix(frame_file(job.input, frames[i], "the picture"),
-              frame_file(job.output, frames[i], "option '--output'"));
+    if (inputs.size() > 1) progress.at("mix", i, inputs.size());
+    mixer.mix(inputs[i], outputs[i]);
   }
   return mixer.take();
 }

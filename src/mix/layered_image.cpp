@@ -35,6 +35,17 @@ LayeredImage::Rgbs rgb_of(const Image& image, const std::string& layer) {
   return channels;
 }
 
+/// What an expression could find: " among 'a', 'b', ..."; colours without a layer's name are none.
+std::string listed(const std::vector<std::string>& layers) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> names;
+  for (const std::string& layer : layers)
+    if (!layer.empty()) names.push_back("'" + layer + "'");
+  if (names.empty()) return {};
+  if (names.size() > kMost) names.resize(kMost), names.emplace_back("...");
+  return " among " + join(names, ", ");
+}
+
 GroupInfo group_named(const std::string& name) {
   GroupInfo group;
   group.name = name;
@@ -68,7 +79,7 @@ LayeredImage find_layers(ExrParts picture, const std::string& where, const std::
   if (found.groups.empty()) {
     std::vector<std::string> known;
     for (const GroupNaming& naming : group_namings()) known.push_back(naming.renderer);
-    throw Error(where, "has no light-group layers",
+    throw Error(where, "has no light-group layers" + listed(layers),
                 expression.empty() ? "names by " + join(known, ", ") + "; others by --groups-from REGEX"
                                    : "layers that --groups-from finds");
   }
