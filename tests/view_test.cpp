@@ -254,6 +254,20 @@ TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
   EXPECT_EQ(read_preset(path("before.toml")).assignments[3], "window=on");
 }
 
+// What cannot be opened takes nobody's name: Ctrl-S still writes beside the package, by its name.
+TEST_F(ViewTest, WhatCannotBeOpenedTakesNoNames) {
+  write_package(folder_ / "x.sconce", test_package(1, 1, 8, 8));
+  fs::create_directory(path("other"));
+  folder_.write("other/notes.md", "no scene\n");
+  const auto outcome =
+      view("settle\ndrop " + path("other/notes.md") + "\nsettle\nframes 3\nkey ctrl+s\nframes 3\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::size_t presets = 0;
+  for (const auto& entry : fs::directory_iterator(path("")))
+    presets += entry.path().filename().string().starts_with("x-") && entry.path().extension() == ".toml";
+  EXPECT_EQ(presets, 1u);
+}
+
 // The pictures of `render --turntable`, and the camera is where it was.
 TEST_F(ViewTest, Turntable) {
   bake();

@@ -60,7 +60,13 @@ void Viewer::top_bar(ImVec2 at, ImVec2 size) {
   ImGui::TextUnformatted("sconce");
   ImGui::PopStyleColor();
   ImGui::PopFont();
-  if (!state_.ready()) return ImGui::End();
+  if (state_.ready()) opened_bar();
+  ImGui::SameLine(size.x - px(84));
+  if (ImGui::Button("Help F1", {px(70), 0})) state_.help = !state_.help;
+  ImGui::End();
+}
+
+void Viewer::opened_bar() {
   ImGui::SameLine(0, px(16));
   ImGui::TextUnformatted(state_.file.filename().string().c_str());
   ImGui::SameLine(0, px(20));
@@ -96,9 +102,6 @@ void Viewer::top_bar(ImVec2 at, ImVec2 size) {
         set_look(row.kind);
     ImGui::EndCombo();
   }
-  ImGui::SameLine(size.x - px(84));
-  if (ImGui::Button("Help F1", {px(70), 0})) state_.help = !state_.help;
-  ImGui::End();
 }
 
 void Viewer::status_bar(ImVec2 at, ImVec2 size) {
@@ -108,7 +111,7 @@ void Viewer::status_bar(ImVec2 at, ImVec2 size) {
   if (baking_.running())
     line = fmt::format("baking: {} {:.0f} %", baking_.stage(), 100 * baking_.done());
   else if (opening_.running())
-    line = "opening " + state_.file.filename().string();
+    line = "opening " + state_.coming.filename().string();
   else if (turning_)
     line = fmt::format("turntable, picture {} of {}; Escape stops", turning_->at + 1, turning_->count);
   else if (filming_.running())
@@ -158,7 +161,9 @@ void Viewer::help_card() {
   const ImVec2 all = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(10));
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(26, 27, 30, 248));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(28), px(20)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(32, 33, 37, 255));
   ImGui::Begin("help", &state_.help,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PushFont(fonts().large);
@@ -168,14 +173,14 @@ void Viewer::help_card() {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::kAccent);
     ImGui::TextUnformatted(key.keys);
     ImGui::PopStyleColor();
-    ImGui::SameLine(px(200));
+    ImGui::SameLine(px(220));
     ImGui::TextUnformatted(key.what);
   }
   ImGui::Dummy({0, px(4)});
   ImGui::TextDisabled("All of it is a command, too: sconce render, fit, view --script. See docs/window.md.");
   ImGui::End();
   ImGui::PopStyleColor();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(3);
 }
 
 void Viewer::welcome(ImVec2 at, ImVec2 size) {
@@ -188,7 +193,7 @@ void Viewer::welcome(ImVec2 at, ImVec2 size) {
   ImGui::BeginGroup();
   ImGui::PushTextWrapPos(x + width);
   ImGui::PushFont(fonts().large);
-  ImGui::TextUnformatted(waiting ? state_.file.filename().string().c_str() : "Drop a file here");
+  ImGui::TextUnformatted(waiting ? state_.coming.filename().string().c_str() : "Drop a file here");
   ImGui::PopFont();
   if (waiting) {
     const std::string stage = baking_.running() ? baking_.stage() : "opening";

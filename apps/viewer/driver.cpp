@@ -57,8 +57,8 @@ bool Driver::step() {
   if (at_ >= actions_.size()) return false;
   const Action& action = actions_[at_++];
   // What a package's state is asked for before it is there waits for it.
-  if (!v.state_.ready() && !v.state_.file.empty() && action.word != "screenshot" && action.word != "frames" &&
-      action.word != "wait" && action.word != "key" && action.word != "drop") {
+  if (!v.state_.ready() && !v.state_.coming.empty() && action.word != "screenshot" &&
+      action.word != "frames" && action.word != "wait" && action.word != "key" && action.word != "drop") {
     if (const std::string problem = v.state_.notes.empty() ? "" : v.state_.notes.back().first;
         !problem.empty())
       throw Error(action.where, problem);

@@ -28,6 +28,7 @@ void Viewer::seek() {
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);
   session.fade_to(mood, state_.fade_seconds);
+  state_.sought_faders = mood.faders;
   double now = 0, all = 0;
   for (std::size_t g = 0; g < power.size(); ++g) now += power[g] * found.gains[g], all += power[g];
   state_.sought = fmt::format("residual {:.1f} % of the goals", 100 * found.residual);
@@ -57,6 +58,7 @@ void Viewer::seek_picture(const fs::path& file) {
   Mood mood = session.mood();
   mood.faders = with_gains(mood.faders, found.gains);
   session.fade_to(mood, state_.fade_seconds);
+  state_.sought_faders = mood.faders;
   state_.sought = fmt::format("{}: residual {:.1f} %", file.filename().string(), 100 * found.residual);
   note("faders moved to look like " + file.filename().string());
 }

@@ -17,6 +17,13 @@ namespace fs = std::filesystem;
 
 namespace sconce::viewer {
 
+void Viewer::name_shown() {
+  if (state_.file == state_.coming) return;
+  state_.file = state_.coming;
+  remembered_.opened(state_.file);
+  window_.set_title(state_.file.filename().string() + " - sconce");
+}
+
 void Viewer::screenshot() {
   const std::string name = fmt::format("sconce-{:%Y%m%d-%H%M%S}{}", fmt::localtime(std::time(nullptr)),
                                        ImGui::GetIO().KeyShift ? ".exr" : ".png");

@@ -153,7 +153,8 @@ void Viewer::design_panel() {
   }
   if (!state_.goals.empty()) standing_line();
   if (!state_.goals.empty() && ImGui::Button("Move faders, least power", {-1, 0})) seek();
-  if (!state_.sought.empty()) ImGui::TextDisabled("%s", state_.sought.c_str());
+  if (!state_.sought.empty() && state_.sought_faders == state_.session->mood().faders)
+    ImGui::TextDisabled("%s", state_.sought.c_str());
   if (state_.sheet) return;
   ImGui::Dummy({0, px(6)});
   ImGui::Separator();

@@ -116,7 +116,7 @@ void Viewer::open(const fs::path& file) {
   if (!fs::exists(file)) throw Error(file.string(), "no such file");
   baking_.stop();
   fs::path whole = file.has_filename() ? file : file.parent_path();
-  state_.file = whole;
+  state_.coming = whole;
   if (fs::is_directory(whole)) {
     opening_.start(
         [whole](const Progress&, const auto& publish) { publish(std::make_shared<const Opened>(whole)); });
@@ -130,8 +130,6 @@ void Viewer::open(const fs::path& file) {
       request_.bake(whole, progress, publish);
     });
   }
-  remembered_.opened(whole);
-  window_.set_title(whole.filename().string() + " - sconce");
 }
 
 void Viewer::take_results() {
@@ -173,9 +171,11 @@ void Viewer::show(std::shared_ptr<const Opened> opened) {
   // A finer bake of the same scene: faders, camera and goals stay.
   const auto alike = [](const GroupInfo& a, const GroupInfo& b) { return a.name == b.name; };
   const bool again = state_.session && state_.opened && !own_folder_.empty() &&
+                     state_.file == state_.coming &&
                      std::equal(groups.begin(), groups.end(), state_.session->groups().begin(),
                                 state_.session->groups().end(), alike);
   state_.canvas = std::move(canvas);
+  name_shown();
   forget_objects();
   state_.sheet.reset();
   state_.opened = std::move(opened);
@@ -203,6 +203,7 @@ void Viewer::show(std::shared_ptr<const OpenedPicture> opened) {
   state_.canvas.reset(), state_.opened.reset(), state_.under.reset(), state_.package.clear();
   forget_objects();
   state_.sheet = std::move(sheet);
+  name_shown();
   state_.place = {};
   start_session(state_.sheet->opened().picture.groups);
 }

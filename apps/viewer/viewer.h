@@ -110,7 +110,8 @@ struct SheetPlace {
 using AnyOpened = std::variant<std::shared_ptr<const Opened>, std::shared_ptr<const OpenedPicture>>;
 
 struct State {
-  std::filesystem::path file;     ///< as it was asked for; empty = none
+  std::filesystem::path file;     ///< that is shown, as it was asked for; empty = none
+  std::filesystem::path coming;   ///< the file that was asked for last; another one until it is there
   std::filesystem::path package;  ///< that is shown; another one where a scene is baked
   std::shared_ptr<const Opened> opened;
   std::unique_ptr<Canvas> canvas;  ///< of a package; else there may be a sheet
@@ -134,6 +135,7 @@ struct State {
   std::optional<Ball> ball;
   std::vector<Goal> goals;
   std::string sought;                                ///< what goal seeking found, in words
+  Faders sought_faders;                              ///< that it found; the words are of these alone
   std::deque<std::pair<std::string, double>> notes;  ///< lines that fade, with the time they end
   ImVec2 canvas_at{0, 0}, canvas_size{1, 1};
   std::map<std::string, ImVec4> fader_places;  ///< for scripts: x, y, width, height of each track
@@ -182,6 +184,8 @@ class Viewer {
   void show_plane();
   void show_plane(const MeasuredPlane& baked);
   /// Figures of all planes as mixed, a line each, with a head. @throws Error
+  /// What comes is there: its name in the title and among the recent files.
+  void name_shown();
   void write_figures(const std::filesystem::path& file) const;
   /// @throws Error where the package has no probes
   void place_ball(const Vec3& middle, float radius);
@@ -267,6 +271,7 @@ class Viewer {
 
   // Panels, one file each.
   void top_bar(ImVec2 at, ImVec2 size);
+  void opened_bar();
   void status_bar(ImVec2 at, ImVec2 size);
   void side_panel(ImVec2 at, ImVec2 size);
   void mix_panel();
