@@ -149,6 +149,7 @@ std::vector<Image> Canvas::mixed_pages(const Movers& movers) {
 }
 
 std::vector<Image> Canvas::mixed_components(const MixSpec& mix, const Movers& movers) {
+  if (axes_.empty()) return {};
   MixSpec baked = mix;
   for (const std::size_t group : movers.changed(mix.weights.size())) baked.weights[group] = Rgb(0);
   std::vector<Image> out(axes_.size() * static_cast<std::size_t>(opened_->package.manifest().pages));
