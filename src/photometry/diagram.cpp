@@ -97,7 +97,7 @@ void add_title(Drawing& drawing, const Photometry& p, const std::string& title, 
   const auto fitting = [&](std::string text, double size) {
     if (stroke_text_width(text, size) <= drawing.width - 20) return text;
     while (!text.empty() && stroke_text_width(text + "...", size) > drawing.width - 20) {
-      while ((static_cast<unsigned char>(text.back()) & 0xc0) == 0x80)
+      while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80)
         text.pop_back();  // a letter's last bytes
       text.pop_back();
     }

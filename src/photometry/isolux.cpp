@@ -156,7 +156,7 @@ Drawing isolux_diagram(const Photometry& given, const std::string& title, double
   out.labels.insert(out.labels.end(), values.begin(), values.end());
   out.labels.push_back({{kMargin + kSize + 6, middle.y + 4}, "C0", kBlack});
   out.labels.push_back({{middle.x, top - 6}, "C90", kBlack, Anchor::middle});
-  const double unit = kSize / (width), step = tick_step(width);
+  const double unit = kSize / width, step = tick_step(width);
   for (int i = -static_cast<int>(0.5 * width / step); i * step <= 0.5 * width; ++i) {
     const double at = i * step * unit;
     out.lines.push_back({{{{middle.x + at, top + kSize}, {middle.x + at, top + kSize + 4}}}, kMark});
