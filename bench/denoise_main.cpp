@@ -112,7 +112,7 @@ void run(const std::string& path) {
   const auto low = bench.bake(name, low_samples, 1), high = bench.bake(name, high_samples, 2),
              reference = bench.bake(name, std::stoi(setting("REFERENCE", "1024")), 3);
   const auto start = std::chrono::steady_clock::now();
-  const TexelGraph graph = make_texel_graph(bench.atlas, bench.receivers, bench.tracer);
+  const TexelGraph graph = make_texel_graph(bench.receivers, bench.tracer);
   const auto linked = std::chrono::steady_clock::now();
   const auto clean = denoise(graph, low), clean_high = denoise(graph, high);
   const auto end = std::chrono::steady_clock::now();

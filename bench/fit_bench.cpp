@@ -29,19 +29,19 @@ void look_like_a_picture(benchmark::State& state) {
   }
   contents.encodings.assign(kGroups, "f16");
   write_package(folder / "x.sconce", contents);
-  const Opened opened(folder / "x.sconce");
-  const std::vector<GroupInfo>& groups = opened.package.manifest().groups;
+  const auto opened = std::make_shared<const Opened>(folder / "x.sconce");
+  const std::vector<GroupInfo>& groups = opened->package.manifest().groups;
   Faders faders{.groups = std::vector<Fader>(kGroups)};
   for (std::size_t g = 0; g < kGroups; ++g) faders.groups[g].gain = 0.1 + 0.17 * static_cast<double>(g);
   const MixSpec mix = make_mix(groups, faders);
-  const Camera camera = opened.rays.camera("");
-  const Image picture = opened.rays.render(camera, mix, mix_pages(opened.package, mix),
+  const Camera camera = opened->rays.camera("");
+  const Image picture = opened->rays.render(camera, mix, mix_pages(opened->package, mix),
                                            {.width = 1280, .height = 720, .samples = 4});
   const std::vector<Rgb> unit = unit_weights(groups, faders);
   double worst = 0;
   for (auto _ : state) {
     Wishes wishes(kGroups);
-    wish_picture(wishes, opened.rays, grouped_light(opened.layers), camera, unit, picture);
+    wish_picture(wishes, opened->rays, grouped_light(layers_of(opened)), camera, unit, picture);
     const Fit found = fit(wishes);
     for (std::size_t g = 0; g < kGroups; ++g)
       worst = std::max(worst, std::abs(found.gains[g] / faders.groups[g].gain - 1));

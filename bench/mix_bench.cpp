@@ -3,6 +3,8 @@
 // than memory, since the layers are larger than any cache.
 #include "copy.h"
 #include "layers.h"
+#include "mix/light_meter.h"
+#include "package/test_package.h"
 
 using namespace sconce;
 
@@ -35,6 +37,19 @@ void mix_one(benchmark::State& state) {
           });
 }
 
+/// What automatic exposure adds to every fader move: the sum read once, and a texel's albedo, weight and
+/// place.
+void meter_mixed(benchmark::State& state) {
+  const auto side = static_cast<int>(state.range(0));
+  const TemporaryFolder folder;
+  write_package(folder / "quad.sconce", test_package(1, 1, side, side));
+  const Package package = Package::open(folder / "quad.sconce");
+  const MixSpec mix = make_weights(1, 1);
+  const LightMeter meter(package, package.scene());
+  const std::vector<Image> mixed{make_layer(0, side, side)};
+  measure(state, 32.0 * side * side, [&] { benchmark::DoNotOptimize(meter(mix, mixed)); });
+}
+
 }  // namespace
 
 BENCHMARK_CAPTURE(mix_all, f16, "f16")
@@ -65,3 +80,4 @@ BENCHMARK_CAPTURE(mix_all, multi8, "multi8")
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(mix_one)->ArgName("groups")->Arg(4)->Arg(16)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(meter_mixed)->ArgName("side")->Arg(1024)->UseRealTime()->Unit(benchmark::kMillisecond);

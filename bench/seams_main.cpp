@@ -61,7 +61,7 @@ void run(const std::filesystem::path& path) {
   const LitAtlas lit(import_scene(path), Grouping::automatic, std::stoi(setting("PAGE", "512")));
   const ScratchFolder folder;
   const Values solved = bake(lit, folder.path() / "x.state");
-  const Values clean = denoise(make_texel_graph(lit.atlas, lit.receivers, lit.tracer), solved);
+  const Values clean = denoise(make_texel_graph(lit.receivers, lit.tracer), solved);
   const Seams seams(lit.world, lit.tracer, lit.atlas);
   for (const auto& [what, values] : {std::pair("as solved", &solved), {"denoised", &clean}})
     for (const Seams* closing : {static_cast<const Seams*>(nullptr), &seams}) {

@@ -148,7 +148,7 @@ Manifest write_result(const PreparedBake& bake, std::span<BakeState> states,
   std::vector<std::vector<GroupValue>> values = own_values(bake, states, progress);
   if (bake.job.denoise) {
     assemble(bake, values, areas, nullptr, contents.raw, contents.raw_noise, progress);
-    values = denoise(make_texel_graph(atlas, bake.receivers, bake.tracer), values, progress,
+    values = denoise(make_texel_graph(bake.receivers, bake.tracer), values, progress,
                      bake.scene.groups.size());
   }
   const Seams seams(bake.world, bake.tracer, atlas);

@@ -121,7 +121,7 @@ int run_fit(int argc, const char* const* argv) {
       const MovedLightmap moved(opened, now, progress);
       wish_picture(wishes, moved.view(), moved.light(), camera, unit, wanted, progress);
     } else {
-      wish_picture(wishes, view, grouped_light(opened->layers), camera, unit, wanted, progress);
+      wish_picture(wishes, view, grouped_light(layers_of(opened)), camera, unit, wanted, progress);
     }
   }
   std::vector<double> power;

@@ -57,7 +57,7 @@ void MovedLightmap::light_added(const Rearrangement& now, const Progress& progre
 }
 
 GroupedLight MovedLightmap::light() const {
-  GroupedLight light = moved_light({lamps_.get(), objects_.get()}, opened_->layers);
+  GroupedLight light = moved_light({lamps_.get(), objects_.get()}, layers_of(opened_));
   light.given = added_;
   return light;
 }

@@ -46,9 +46,9 @@ Canvas::Canvas(const gpu::Context& context, std::shared_ptr<const Opened> opened
       context_(&context),
       opened_(std::move(opened)),
       view_(context, opened_->rays.shown(), opened_->rays.sees_normal_maps()),
-      mixer_(opened_->layers),
+      mixer_(layers_of(opened_)),
       reference_display_(context) {
-  for (std::size_t c = 1; c < opened_->layers.coefficients(); ++c) axes_.emplace_back(opened_->layers, c);
+  for (std::size_t c = 1; c < opened_->layers.coefficients(); ++c) axes_.emplace_back(layers_of(opened_), c);
   const ShaderTier& tier = gpu::tier_of(context.capabilities());
   // Mixing by a processor that plays graphics device is slower than by the one that is a processor.
   if (!context.capabilities().software && tier.f16)
@@ -165,7 +165,7 @@ const GroupPages& Canvas::moved_pages(const Movers& movers) {
     moved_pages_.clear(), moved_mix_ = {};
   } else if (moved_version_ != movers.version() || moved_mix_.weights != mix_.weights) {
     moved_pages_.clear();
-    Mixer mixer(opened_->layers);
+    Mixer mixer(layers_of(opened_));
     for (const std::size_t group : movers.changed(mix_.weights.size()))
       moved_pages_[group] = movers.pages(mixer, group, mix_.weights.size(), mix_.weights[group]);
     moved_version_ = movers.version(), moved_mix_ = mix_;

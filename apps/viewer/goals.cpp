@@ -52,7 +52,7 @@ void Viewer::seek_picture(const fs::path& file) {
   if (state_.sheet)
     wish_picture(wishes, state_.sheet->opened(), unit, target);
   else
-    wish_picture(wishes, rays(), moved_light(state_.movers(), state_.opened->layers), state_.camera, unit,
+    wish_picture(wishes, rays(), moved_light(state_.movers(), layers_of(state_.opened)), state_.camera, unit,
                  target);
   const Fit found = fit(wishes);
   Mood mood = session.mood();

@@ -6,7 +6,7 @@ namespace sconce::viewer {
 Sheet::Sheet(const gpu::Context& context, std::shared_ptr<const OpenedPicture> opened)
     : Screen(context),
       opened_(std::move(opened)),
-      mixer_(opened_->layers),
+      mixer_(layers_of(opened_)),
       light_(context, {.format = GL_RGB32F, .width = opened_->width(), .height = opened_->height()},
              "picture") {}
 

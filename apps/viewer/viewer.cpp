@@ -267,7 +267,7 @@ void Viewer::trace_reference(int part) {
 Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
   if (state_.sheet) return meter_picture(Mixer(state_.sheet->opened().layers).mix(mix).front());
-  Mixer mixer(state_.opened->layers);
+  Mixer mixer(layers_of(state_.opened));
   const Movers movers = state_.movers();
   return state_.opened->meter(mix, movers.any() ? movers.pages(mixer, mix) : mixer.mix(mix));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "package/package.h"
@@ -26,6 +27,12 @@ struct EncodedLayers {
   /// Codes of all pages.
   std::size_t bytes() const;
 };
+
+/// The member `layers` of what is shared, which it keeps.
+template <class Owner>
+std::shared_ptr<const EncodedLayers> layers_of(const std::shared_ptr<Owner>& owner) {
+  return {owner, &owner->layers};
+}
 
 /// @param coefficients  of the basis: the first alone, or all, one after the other
 /// @throws as Package::encoded

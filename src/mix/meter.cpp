@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
@@ -13,8 +14,8 @@ namespace {
 constexpr double kDelta = 1e-4;  // cd/m2, contract.md, "Exposure"
 constexpr double kPercentile = 0.999;
 
-/// Weighted luminances by size. A sixty-fourth of a stop per bin; each bin keeps its largest member, so few
-/// values come back exactly.
+/// Weighted luminances by size, 64 bins from each power of two to the next; each bin keeps its largest
+/// member, so few values come back exactly.
 class Histogram {
  public:
   void add(float luminance, double weight) {
@@ -40,19 +41,18 @@ class Histogram {
   }
 
  private:
-  static constexpr int kPerStop = 64, kLowest = -40, kHighest = 40;
+  static constexpr uint32_t kBits = 6;                                                  // of the mantissa
+  static constexpr uint32_t kFirst = (127 - 40) << kBits, kLast = (127 + 40) << kBits;  // 2^-40, 2^40
   static std::size_t index(float luminance) {
     if (!(luminance > 0)) return 0;
-    const float stop =
-        std::clamp(std::log2(luminance), static_cast<float>(kLowest), static_cast<float>(kHighest));
-    return static_cast<std::size_t>((stop - kLowest) * kPerStop) + 1;
+    return std::clamp(std::bit_cast<uint32_t>(luminance) >> (23 - kBits), kFirst, kLast) - kFirst + 1;
   }
 
   struct Bin {
     double weight = 0;
     float largest = 0;
   };
-  std::vector<Bin> bins_ = std::vector<Bin>((kHighest - kLowest) * kPerStop + 2);
+  std::vector<Bin> bins_ = std::vector<Bin>(kLast - kFirst + 2);
   double total_ = 0;
 };
 
@@ -60,6 +60,12 @@ struct Sums {
   double log_sum = 0, weight = 0;
   Histogram histogram;
 
+  void add(float luminance, double of_weight) {
+    const float l = std::max(0.0f, luminance);
+    log_sum += of_weight * std::log(static_cast<double>(l) + kDelta);
+    weight += of_weight;
+    histogram.add(l, of_weight);
+  }
   void add(const Sums& other) {
     log_sum += other.log_sum;
     weight += other.weight;
@@ -117,7 +123,8 @@ LightMeter::LightMeter(const Package& package, const Scene& scene)
     for (std::size_t i = 0; i < receivers.pixels(); ++i) {
       if (i % band == 0) bands.emplace_back();
       const float* r = &receivers.data[i * 4];
-      if (r[3] > 0) bands.back().push_back({Rgb(r[0], r[1], r[2]), r[3], static_cast<uint32_t>(i)});
+      const Rgb albedo(r[0], r[1], r[2]);
+      if (is_metered(albedo, r[3])) bands.back().push_back({albedo, r[3], static_cast<uint32_t>(i)});
     }
   }
 }
@@ -130,14 +137,12 @@ Metering LightMeter::operator()(const MixSpec& mix, std::span<const Image> mixed
   for (std::size_t page = 0; page < mixed.size(); ++page) {
     std::vector<Sums> bands(pages_[page].size());
     parallel_for(bands.size(), 1, [&](std::size_t band) {
+      Sums own;  // beside the others' it would share cache lines with them
       for (const Texel& texel : pages_[page][band]) {
         const float* e = &mixed[page].data[3 * std::size_t{texel.index}];
-        const float l = std::max(0.0f, luminance(texel.albedo * Rgb(e[0], e[1], e[2])) * kInvPi);
-        const auto weight = static_cast<double>(texel.weight);
-        bands[band].log_sum += weight * std::log(static_cast<double>(l) + kDelta);
-        bands[band].weight += weight;
-        bands[band].histogram.add(l, weight);
+        own.add(luminance(texel.albedo * Rgb(e[0], e[1], e[2])) * kInvPi, static_cast<double>(texel.weight));
       }
+      bands[band] = std::move(own);
     });
     Sums total;
     for (const Sums& band : bands) total.add(band);
@@ -160,12 +165,7 @@ Metering meter(const Package& package, const Scene& scene, const MixSpec& mix, s
 Metering meter_picture(const Image& picture) {
   Sums sums;
   for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const float l = std::max(0.0f, luminance(picture.rgb_at(x, y)));
-      sums.log_sum += std::log(static_cast<double>(l) + kDelta);
-      sums.weight += 1;
-      sums.histogram.add(l, 1);
-    }
+    for (int x = 0; x < picture.width; ++x) sums.add(luminance(picture.rgb_at(x, y)), 1);
   return {std::exp(sums.log_sum / std::max(sums.weight, 1.0)), sums.histogram.percentile(kPercentile)};
 }
 

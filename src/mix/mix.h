@@ -14,6 +14,11 @@ std::vector<Image> mix_components(const Package& package, const MixSpec& mix);
 /// @throws Error when the mix or its pages are of another package
 void check_pages(const Manifest& manifest, const MixSpec& mix, std::span<const Image> pages);
 
+/// Whether a texel says how bright its surface looks. Where nothing is reflected diffusely it does not:
+/// mirrors and metals show others.
+inline bool is_metered(const Rgb& albedo, float weight) {
+  return weight > 0 && !albedo.is_black();
+}
 /// What automatic exposure and the curves that need it are metered on: the mixed lightmap, never the picture,
 /// so that CPU, GL and web agree and orbiting does not flicker (contract.md, "Exposure").
 struct Metering {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/parallel.h"
 #include "package/test_package.h"
 
@@ -104,6 +106,35 @@ TEST_F(Mix, MaximumIsTheThousandthFromTheTop) {
   const Package package = write(c);
   const Metering metering = meter(package, {{Rgb(1)}}, mix_pages(package, {{Rgb(1)}}));
   EXPECT_NEAR(metering.maximum / (0.5 / 3.14159265358979 * std::exp2(998 / 64.0)), 1, 0.012);
+}
+
+// Light over forty stops under uneven weights, on several bands of rows.
+TEST_F(Mix, MeteringAgreesWithLogarithmsAndASort) {
+  PackageContents c = test_package(1, 1, 60, 200);
+  std::vector<std::pair<double, double>> sorted;  // luminance, weight
+  double logs = 0, weights = 0;
+  for (int i = 0; i < 60 * 200; ++i) {
+    const auto random = [&](uint32_t salt) {
+      return static_cast<float>(mix32(salt, static_cast<uint32_t>(i)) % 4096) / 4096;
+    };
+    const Rgb light = Rgb(1, 2, 3) * std::exp2(40 * random(1) - 20);
+    const float weight = 0.1f + random(2);
+    c.layers[0][0].set_rgb(i % 60, i / 60, light);
+    c.receivers[0].at(i % 60, i / 60)[3] = weight;
+    const double l = static_cast<double>(luminance(light)) * 0.5 / 3.14159265358979;
+    sorted.emplace_back(l, weight);
+    logs += static_cast<double>(weight) * std::log(l + 1e-4), weights += static_cast<double>(weight);
+  }
+  std::ranges::sort(sorted);
+  double below = 0;
+  const auto at =
+      std::ranges::find_if(sorted, [&](const auto& s) { return (below += s.second) >= 0.999 * weights; });
+
+  const Package package = write(c);
+  const Metering metering = meter(package, {{Rgb(1)}}, mix_pages(package, {{Rgb(1)}}));
+  EXPECT_NEAR(metering.log_mean / std::exp(logs / weights), 1, 1e-5);
+  EXPECT_GE(metering.maximum, at->first * (1 - 1e-6));
+  EXPECT_LE(metering.maximum, at->first * (1 + 1 / 64.0)) << "its bin's largest";
 }
 
 TEST_F(Mix, MaximumSeesEmittersThroughTheirFader) {

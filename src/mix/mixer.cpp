@@ -8,19 +8,22 @@
 
 namespace sconce {
 
-Mixer::Mixer(EncodedLayers layers, std::size_t coefficient) : colors_(std::move(layers.colors)) {
-  for (std::size_t t = 0; t < layers.textures.size(); ++t) {
-    if (layers.textures[t].coefficient != coefficient) continue;
-    std::vector<EncodedImage>& pages = layers.images[t];
-    const std::size_t groups = layers.textures[t].groups.size();
+Mixer::Mixer(std::shared_ptr<const EncodedLayers> layers, std::size_t coefficient) : colors_(layers->colors) {
+  for (std::size_t t = 0; t < layers->textures.size(); ++t) {
+    const LayerTexture& texture = layers->textures[t];
+    if (texture.coefficient != coefficient) continue;
+    std::shared_ptr<const std::vector<EncodedImage>> pages(layers, &layers->images[t]);
     // Blocks are unpacked once; what they hold are halves.
-    if (pages.front().encoding->type == TexelType::bc6h)
-      for (EncodedImage& page : pages) page = encode(decode(page), find_encoding("f16"));
-    textures_.push_back({std::move(layers.textures[t]), WeighTables(*pages.front().encoding),
-                         std::move(pages), std::vector<Rgb>(groups)});
+    if (pages->front().encoding->type == TexelType::bc6h) {
+      std::vector<EncodedImage> unpacked;
+      for (const EncodedImage& page : *pages) unpacked.push_back(encode(decode(page), find_encoding("f16")));
+      pages = std::make_shared<const std::vector<EncodedImage>>(std::move(unpacked));
+    }
+    const WeighTables tables(*pages->front().encoding);
+    textures_.push_back({texture, tables, std::move(pages), std::vector<Rgb>(texture.groups.size())});
   }
   if (textures_.empty()) return;
-  for (const EncodedImage& page : textures_.front().pages) {
+  for (const EncodedImage& page : *textures_.front().pages) {
     sum_.push_back(Image::rgb(page.width, page.height));
     sum_.back().text["sconce:unit"] = "lux";
   }
@@ -29,7 +32,7 @@ Mixer::Mixer(EncodedLayers layers, std::size_t coefficient) : colors_(std::move(
 std::size_t Mixer::bytes() const {
   std::size_t bytes = 0;
   for (const Texture& texture : textures_)
-    for (const EncodedImage& page : texture.pages) bytes += page.data.size();
+    for (const EncodedImage& page : *texture.pages) bytes += page.data.size();
   return bytes;
 }
 
@@ -64,12 +67,12 @@ void Mixer::add(const std::vector<const Texture*>& textures, const std::vector<s
   constexpr int kTexels = 32768;
   bytes_read_ = 0;
   for (const Texture* texture : textures)
-    for (const EncodedImage& page : texture->pages) bytes_read_ += page.data.size();
+    for (const EncodedImage& page : *texture->pages) bytes_read_ += page.data.size();
   for (std::size_t page = 0; page < sum_.size(); ++page) {
     Image& sum = sum_[page];
     std::vector<Weighted> terms;
     for (std::size_t i = 0; i < textures.size(); ++i)
-      terms.push_back({textures[i]->tables, textures[i]->pages[page], weights[i],
+      terms.push_back({textures[i]->tables, (*textures[i]->pages)[page], weights[i],
                        textures[i]->layout.encoding.luminance});
     const std::size_t row = 3 * static_cast<std::size_t>(sum.width);
     const int band_rows = std::max(1, kTexels / sum.width);

@@ -3,6 +3,7 @@
 // while faders move.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mix/encoded_layers.h"
@@ -15,8 +16,10 @@ class Mixer {
  public:
   /// Reads all layers. @throws as Package::encoded
   explicit Mixer(const Package& package) : Mixer(read_layers(package)) {}
+  explicit Mixer(EncodedLayers layers) : Mixer(std::make_shared<const EncodedLayers>(std::move(layers))) {}
+  /// Shares what is stored in memory with others.
   /// @param coefficient  of the basis
-  explicit Mixer(EncodedLayers layers, std::size_t coefficient = 0);
+  explicit Mixer(std::shared_ptr<const EncodedLayers> layers, std::size_t coefficient = 0);
 
   /// sum_g w_g * E_g per page, RGB lux. Where less than half of the textures have other weights than at the
   /// last call, only they are read and their differences added; every kRefresh such calls all is summed anew,
@@ -33,7 +36,7 @@ class Mixer {
   struct Texture {
     LayerTexture layout;
     WeighTables tables;
-    std::vector<EncodedImage> pages;
+    std::shared_ptr<const std::vector<EncodedImage>> pages;
     std::vector<Rgb> weights;  ///< of the last call; colours multiplied in
   };
   /// Adds textures[i] with weights[i] to every page.

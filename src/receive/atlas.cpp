@@ -135,10 +135,12 @@ Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, c
     const Placement& place = packing.blocks[b];
     for (const uint32_t c : blocks[b].charts) {
       const Chart& chart = charts[c];
+      const std::vector<double> importance = importances(seen, graph, chart.triangles, chart.back);
       for (std::size_t i = 0; i < chart.triangles.size(); ++i) {
         TexelTriangle& side = (chart.back ? atlas.back : atlas.front)[chart.triangles[i]];
         side.page = place.page;
         side.chart = c;
+        side.importance = importance_code(importance[i]);
         for (std::size_t k = 0; k < 3; ++k)
           side.uv[k] = place.origin + chart.uv[i][k] * place.texels_per_metre;
       }

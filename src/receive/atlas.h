@@ -29,6 +29,7 @@ struct TexelTriangle {
   std::array<Vec2, 3> uv;  ///< texel coordinates on its page: x right, y down, row 0 = v 0
   int page = -1;           ///< -1: this side has no texels (emissive back, unseen back, single-sided back)
   uint32_t chart = 0;
+  uint8_t importance = 0;  ///< how much it is looked at: importance_code()
 };
 
 struct AtlasReport {
@@ -57,6 +58,17 @@ struct Atlas {
 Atlas make_atlas(const Scene& scene, const World& world, const Tracer& tracer, const AtlasParams& params,
                  const Progress& progress = {});
 
+/// @param side  2 * triangle + 1 for the back
+inline const TexelTriangle& side_of(const Atlas& atlas, uint32_t side) {
+  return ((side & 1) != 0 ? atlas.back : atlas.front)[side / 2];
+}
+
+/// Where a surface is looked at this many times as much as an ordinary one, it is metered no more for it.
+inline constexpr float kMostImportance = 16;
+/// Sixteen steps to a factor of two, downwards from kMostImportance, never 0: the same from a kept layout.
+uint8_t importance_code(double importance);
+float importance_of(uint8_t code);
+
 /// The texels of an atlas as receivers, in fixed tiles.
 class TexelReceivers {
  public:
@@ -82,9 +94,10 @@ class TexelReceivers {
   bool covered(std::size_t i) const;
   /// Of the World: the first one under it.
   uint32_t triangle(std::size_t i) const { return sides_[first_[i]] / 2; }
-  /// How much the texel's surface is looked at: (its texels per metre / atlas.density)^2, at most 1; exposure
-  /// is metered with area x importance.
+  /// How much it is looked at, in (0, kMostImportance]: exposure is metered with area x importance.
   float importance(std::size_t i) const;
+  /// Metres from a texel to the next where it lies, at least those at the atlas's density.
+  float spacing(std::size_t i) const;
   /// Area-weighted mean diffuse albedo over the footprint's triangles (contract: without emission).
   Rgb albedo(const Scene& scene, std::size_t i) const;
 

@@ -254,6 +254,23 @@ float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch&
                     1.0f);
 }
 
+std::vector<double> importances(const Visibility& seen, const MeshGraph& graph, const Patch& patch,
+                                bool back) {
+  std::vector<double> visits, expected;
+  for (const uint32_t t : patch) {
+    visits.push_back(static_cast<double>(seen.weight(2 * t + (back ? 1 : 0))));
+    expected.push_back(static_cast<double>(graph.areas[t]) * seen.reference);
+  }
+  const double sum = std::accumulate(visits.begin(), visits.end(), 0.0);
+  if (!(sum > 0)) return std::vector<double>(patch.size(), 0.0);
+  // A gamma distribution around the mean, as if kEnough visits had been counted before.
+  const double before = kEnough * std::accumulate(expected.begin(), expected.end(), 0.0) / sum;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < patch.size(); ++i)
+    out.push_back((visits[i] + kEnough) / (expected[i] + before));
+  return out;
+}
+
 bool is_reached(const Visibility& seen, const Patch& patch, bool back) {
   return std::ranges::any_of(patch, [&](uint32_t t) { return seen.weight(2 * t + (back ? 1 : 0)) > 0; });
 }

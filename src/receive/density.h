@@ -35,6 +35,11 @@ Visibility probe_visibility(const Scene& scene, const World& world, const MeshGr
 float density_scale(const Visibility& seen, const MeshGraph& graph, const Patch& patch, bool back,
                     float least);
 
+/// Per triangle of the patch how much it is looked at: visits per m2 over those of an ordinary surface. Where
+/// so few are expected that their number says little it is the patch's mean.
+std::vector<double> importances(const Visibility& seen, const MeshGraph& graph, const Patch& patch,
+                                bool back);
+
 /// Whether any probe ray reached the patch's side.
 bool is_reached(const Visibility& seen, const Patch& patch, bool back);
 

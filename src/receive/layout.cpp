@@ -9,7 +9,7 @@ namespace sconce {
 
 namespace {
 
-constexpr std::string_view kMagic = "sconcel1";
+constexpr std::string_view kMagic = "sconcel2";
 
 struct Head {
   int32_t width, height, pages;
@@ -57,6 +57,7 @@ std::string pack_layout(const Atlas& atlas) {
       if (side.page < 0) continue;
       put(out, side.chart);
       put(out, side.uv);
+      put(out, side.importance);
     }
   return out;
 }
@@ -90,6 +91,7 @@ Atlas unpack_layout(std::string_view bytes, std::size_t triangles, const std::st
       if (page < 0) continue;
       in.take(&side.chart, sizeof side.chart);
       in.take(&side.uv, sizeof side.uv);
+      in.take(&side.importance, sizeof side.importance);
       in.whole &= page < head.pages && side.chart < head.charts;
     }
   }

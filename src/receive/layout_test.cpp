@@ -30,6 +30,7 @@ TEST(Layout, ComesBackWhole) {
       if (a.page < 0) continue;
       EXPECT_EQ(a.uv, b.uv);
       EXPECT_EQ(a.chart, b.chart);
+      EXPECT_EQ(a.importance, b.importance);
     }
   EXPECT_EQ(again.reached_back, atlas.reached_back);
   EXPECT_EQ(again.seen_charts, atlas.seen_charts);

@@ -11,10 +11,6 @@ namespace sconce {
 
 namespace {
 
-const TexelTriangle& side_of(const Atlas& atlas, uint32_t side) {
-  return ((side & 1) != 0 ? atlas.back : atlas.front)[side / 2];
-}
-
 /// Texels covered by any side, ascending, and the sides of each, ascending.
 struct Coverage {
   std::vector<uint32_t> texels, first, sides;

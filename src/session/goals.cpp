@@ -168,8 +168,10 @@ void wish_pixels(Wishes& wishes, std::span<const Image> parts, std::span<const R
     }
 }
 
-GroupedLight grouped_light(const EncodedLayers& layers) {
-  return {[&layers](std::size_t group, std::vector<Image>& pages) { layers.layer(group, pages); }};
+GroupedLight grouped_light(std::shared_ptr<const EncodedLayers> layers) {
+  return {[layers = std::move(layers)](std::size_t group, std::vector<Image>& pages) {
+    layers->layer(group, pages);
+  }};
 }
 
 void wish_picture(Wishes& wishes, const View& view, const GroupedLight& light, const Camera& camera,

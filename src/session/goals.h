@@ -38,8 +38,8 @@ struct GroupedLight {
   std::function<void(std::size_t group, std::vector<Image>& pages)> group;  ///< alone at unit weight, lux
   std::vector<Image> given{};  ///< what shines whatever the gains, lux; or none
 };
-/// As it was baked. @param layers  must outlive it
-GroupedLight grouped_light(const EncodedLayers& layers);
+/// As it was baked.
+GroupedLight grouped_light(std::shared_ptr<const EncodedLayers> layers);
 
 /// A picture of the package, in cd/m2, at places kFitWidth across. Left out are those at visible lamps and
 /// the sky, and what gains do not explain: edges, mirrors.

@@ -122,7 +122,7 @@ TEST_F(Measured, PicturesGiveTheirFadersAway) {
   const Image picture = opened->rays.render(camera, mix, mix_pages(opened->package, mix),
                                             {.width = 320, .height = 320, .samples = 4, .seed = 9});
   Wishes wishes(24);
-  wish_picture(wishes, opened->rays, grouped_light(opened->layers), camera, unit_weights(m.groups, faders),
+  wish_picture(wishes, opened->rays, grouped_light(layers_of(opened)), camera, unit_weights(m.groups, faders),
                picture);
   const Fit found = fit(wishes);
   for (std::size_t g = 0; g < 24; ++g)
@@ -131,7 +131,7 @@ TEST_F(Measured, PicturesGiveTheirFadersAway) {
         << g;
   const Faders moved = with_gains(faders, found.gains);
   EXPECT_FALSE(moved.groups[0].solo);
-  EXPECT_THROW(wish_picture(wishes, opened->rays, grouped_light(opened->layers), camera,
+  EXPECT_THROW(wish_picture(wishes, opened->rays, grouped_light(layers_of(opened)), camera,
                             unit_weights(m.groups, faders), Image::rgb(4, 4)),
                Error);
 }

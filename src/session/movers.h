@@ -52,15 +52,15 @@ struct Movers {
   }
 };
 
-/// The lightmap with all that stands elsewhere, for wish_picture(). @param layers  must outlive it
-inline GroupedLight moved_light(const Movers& movers, const EncodedLayers& layers) {
+/// The lightmap with all that stands elsewhere, for wish_picture().
+inline GroupedLight moved_light(const Movers& movers, const std::shared_ptr<const EncodedLayers>& layers) {
   if (!movers.any()) return grouped_light(layers);
-  const std::size_t count = layers.colors.size();
+  const std::size_t count = layers->colors.size();
   const auto mixer = std::make_shared<Mixer>(layers);
-  return {[movers, mixer, count, &layers, changed = movers.changed(count)](std::size_t group,
-                                                                           std::vector<Image>& pages) {
+  return {[movers, mixer, count, layers, changed = movers.changed(count)](std::size_t group,
+                                                                          std::vector<Image>& pages) {
     if (std::find(changed.begin(), changed.end(), group) == changed.end())
-      layers.layer(group, pages);
+      layers->layer(group, pages);
     else
       pages = movers.pages(*mixer, group, count, Rgb(1));
   }};

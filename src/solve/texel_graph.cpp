@@ -108,7 +108,7 @@ std::span<const TexelStep> TexelWalk::around(std::size_t start, float radius) {
   return steps_;
 }
 
-TexelGraph make_texel_graph(const Atlas& atlas, const TexelReceivers& receivers, const Tracer& tracer) {
+TexelGraph make_texel_graph(const TexelReceivers& receivers, const Tracer& tracer) {
   std::vector<TexelNode> nodes(receivers.size());
   parallel_for(receivers.size(), 256, [&](std::size_t i) {
     const Footprint footprint = receivers.footprint(i);
@@ -122,8 +122,8 @@ TexelGraph make_texel_graph(const Atlas& atlas, const TexelReceivers& receivers,
       face += share * piece.geometric_normal;
     }
     const Vec3 first = footprint.pieces.front().geometric_normal;
-    nodes[i] = {position, normalize_or(normal, first), normalize_or(face, first),
-                1 / (atlas.density * std::sqrt(receivers.importance(i))), footprint.area};
+    nodes[i] = {position, normalize_or(normal, first), normalize_or(face, first), receivers.spacing(i),
+                footprint.area};
   });
   return TexelGraph(std::move(nodes), [&](const Vec3& from, const Vec3& to) {
     const float length = glm::distance(from, to);

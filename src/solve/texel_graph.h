@@ -69,6 +69,6 @@ class TexelWalk {
 };
 
 /// The graph of an atlas's receivers.
-TexelGraph make_texel_graph(const Atlas& atlas, const TexelReceivers& receivers, const Tracer& tracer);
+TexelGraph make_texel_graph(const TexelReceivers& receivers, const Tracer& tracer);
 
 }  // namespace sconce

@@ -30,8 +30,9 @@ Texels metered_texels(const Package& package) {
     const Image receivers = package.receivers(page);
     for (std::size_t i = 0; i < receivers.pixels(); ++i) {
       const float* r = &receivers.data[4 * i];
-      if (!(r[3] > 0)) continue;
-      texels.albedo.push_back(kShares * Rgb(r[0], r[1], r[2]) * kInvPi);
+      const Rgb albedo(r[0], r[1], r[2]);
+      if (!is_metered(albedo, r[3])) continue;
+      texels.albedo.push_back(kShares * albedo * kInvPi);
       texels.weight.push_back(r[3]);
       texels.place.push_back(static_cast<std::size_t>(page) * receivers.pixels() + i);
     }

@@ -106,12 +106,21 @@ function makeRenderer(): WebGLRenderer | undefined {
   return new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
 }
 
-function foldable(): void {
+const narrow = matchMedia('(max-width: 640px)');
+
+/** Of the window's lower end, in CSS pixels: on phones the picture stands above the open panel, not behind it. */
+function coveredHeight(): number {
+  return narrow.matches && !document.body.classList.contains('folded') ? byId('panel').offsetHeight : 0;
+}
+
+/** @param onChange  called when the panel has opened or closed */
+function foldable(onChange: () => void): void {
   const fold = byId<HTMLButtonElement>('fold');
   const set = (open: boolean) => {
     document.body.classList.toggle('folded', !open);
     fold.setAttribute('aria-expanded', String(open));
     byId('panel').inert = !open;
+    onChange();
   };
   fold.addEventListener('click', () => set(document.body.classList.contains('folded')));
   document.addEventListener('keydown', (event) => {
@@ -119,12 +128,13 @@ function foldable(): void {
     if (event.key.toLowerCase() === 'h' && !typing && !event.ctrlKey && !event.metaKey) fold.click();
   });
   if (query.get('panel') === 'off') document.body.classList.add('bare');
-  set(query.get('panel') !== 'off' && !matchMedia('(max-width: 640px)').matches);
+  set(query.get('panel') !== 'off' && !narrow.matches);
 }
 
 async function start(): Promise<void> {
   setState('loading');
-  foldable();
+  let onFold = () => {};
+  foldable(() => onFold());
   const renderer = makeRenderer();
   if (!renderer)
     return complain('This page needs WebGL 2', 'Your browser does not offer it, or it is switched off. Any current browser with graphics acceleration does.');
@@ -152,11 +162,13 @@ async function start(): Promise<void> {
   };
   sconce.onChange = look.onChange = draw;
   const resize = () => {
+    const height = innerHeight - coveredHeight();
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    renderer.setSize(innerWidth, innerHeight, false);
-    look.resize(innerWidth / innerHeight);
+    renderer.setSize(innerWidth, height, true);
+    look.resize(innerWidth / height);
   };
   addEventListener('resize', resize);
+  onFold = resize;
   resize();
   new Reader(sconce, renderer, look);
   const live = document.querySelector<HTMLMetaElement>('meta[name=sconce-live]')?.content ?? '';

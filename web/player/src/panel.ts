@@ -27,6 +27,7 @@ function labelled(text: string, control: HTMLElement): HTMLElement {
 
 export class Panel {
   private readonly strips: Strip[];
+  private readonly moodButtons: HTMLButtonElement[];
   private readonly tone: HTMLSelectElement;
   private readonly absolute: HTMLSelectElement;
   private readonly exposure: HTMLInputElement;
@@ -59,6 +60,12 @@ export class Panel {
     this.exposure.addEventListener('input', () => this.changeExposure());
     this.exposure.addEventListener('dblclick', () => state.setExposure({ stops: 0 }));
 
+    this.moodButtons = sconce.presets.map((preset) => {
+      const button = element('button', { type: 'button' }, preset.name);
+      button.addEventListener('click', () => this.start(preset));
+      return button;
+    });
+
     const reset = element('button', { type: 'button' }, 'Reset');
     reset.addEventListener('click', () => this.reset());
     const copy = element('button', { type: 'button', title: 'The settings as words for sconce render and sconce mix' }, 'Copy settings');
@@ -66,7 +73,7 @@ export class Panel {
 
     root.replaceChildren(
       element('header', {}, element('h1', {}, sconce.name || 'sconce'), reset),
-      ...this.moods(),
+      ...(this.moodButtons.length > 0 ? [element('nav', { class: 'moods', 'aria-label': 'Moods' }, ...this.moodButtons)] : []),
       element('ul', { class: this.strips.length > kRoomy ? 'strips many' : 'strips', 'aria-label': 'Lights' }, ...this.strips.map((strip) => strip.root)),
       element(
         'section', { class: 'picture', 'aria-label': 'Picture' },
@@ -82,6 +89,9 @@ export class Panel {
 
   show(): void {
     this.state.faders.forEach((fader, g) => this.strips[g]!.show(fader));
+    this.moodButtons.forEach((button, i) =>
+      button.setAttribute('aria-pressed', String(this.state.mood === this.state.sconce.presets[i])),
+    );
     this.tone.value = this.state.sconce.tone;
     const mode = this.state.sconce.exposure;
     const isAbsolute = 'ev100' in mode;
@@ -103,17 +113,6 @@ export class Panel {
     this.state.applyPreset(preset);
     const camera = this.state.sconce.site.cameras.findIndex((c) => c.name === preset.camera);
     if (camera >= 0) this.look.show(camera);
-  }
-
-  private moods(): HTMLElement[] {
-    const { presets } = this.state.sconce;
-    if (presets.length === 0) return [];
-    const buttons = presets.map((preset) => {
-      const button = element('button', { type: 'button' }, preset.name);
-      button.addEventListener('click', () => this.start(preset));
-      return button;
-    });
-    return [element('nav', { class: 'moods', 'aria-label': 'Moods' }, ...buttons)];
   }
 
   private cameras(): HTMLElement[] {

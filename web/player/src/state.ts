@@ -19,6 +19,8 @@ export interface SharedMix {
 
 export class State {
   faders: Fader[];
+  /** The mood that is shown, while nothing has been changed since. */
+  mood: SitePreset | undefined;
   /** Someone but the panel changed something. */
   onShow: () => void = () => {};
   /** This window changed something. */
@@ -33,15 +35,15 @@ export class State {
   setFader(index: number, fader: Fader): void {
     this.faders = this.faders.map((old, g) => (g === index ? fader : old));
     this.apply();
-    this.onEdit();
+    this.edited();
   }
   setExposure(mode: ExposureMode): void {
     this.sconce.exposure = mode;
-    this.onEdit();
+    this.edited();
   }
   setTone(name: string): void {
     this.sconce.tone = name;
-    this.onEdit();
+    this.edited();
   }
 
   /** Fades to a mood. */
@@ -52,6 +54,7 @@ export class State {
     if (preset.tone) this.sconce.tone = preset.tone;
     if (preset.ev100) this.sconce.exposure = { ev100: Number(preset.ev100) };
     else if (preset.exposure) this.sconce.exposure = { stops: Number(preset.exposure) || 0 };
+    this.mood = preset;
     this.onShow();
     this.onEdit();
   }
@@ -73,8 +76,17 @@ export class State {
     );
     this.sconce.tone = mix.tone || 'agx';
     this.sconce.exposure = mix.ev100 ? { ev100: Number(mix.ev100) } : { stops: Number(mix.exposure) || 0 };
+    this.mood = undefined;
     this.apply();
     this.onShow();
+  }
+
+  private edited(): void {
+    if (this.mood) {
+      this.mood = undefined;
+      this.onShow();
+    }
+    this.onEdit();
   }
 
   private apply(): void {
