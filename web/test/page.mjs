@@ -66,15 +66,36 @@ async function soloAndPreset() {
   await settled(page);
   const first = page.locator('input[type=range]').first();
   assert.equal(await first.inputValue(), '-2', 'the first mood is there at once');
+  const dim = page.getByRole('button', { name: 'dim' });
+  assert.equal(await dim.getAttribute('aria-pressed'), 'true');
+  await first.fill('-1');
+  assert.equal(await dim.getAttribute('aria-pressed'), 'false', 'it is not that mood any more');
   await page.getByRole('button', { name: 'Reset' }).click();
   assert.equal(await first.inputValue(), '0');
   const solos = page.locator('.solo');
   assert.ok((await solos.count()) > 1);
   await solos.first().click();
   assert.equal(await solos.first().getAttribute('aria-pressed'), 'true');
-  await page.getByRole('button', { name: 'dim' }).click();
+  await dim.click();
+  assert.equal(await dim.getAttribute('aria-pressed'), 'true');
   assert.equal(await solos.first().getAttribute('aria-pressed'), 'false');
   assert.equal(await page.locator('input[type=range]').first().inputValue(), '-2');
+  await page.close();
+}
+
+/** Nothing of the picture lies behind the open panel. */
+async function onAPhone() {
+  const { page, errors } = await openPage(browser, site.url, { width: 390, height: 844 });
+  await settled(page);
+  const height = (id) => page.evaluate((of) => document.getElementById(of).getBoundingClientRect().height, id);
+  assert.equal(await height('view'), 844);
+  const fold = page.getByRole('button', { name: 'Lights' });
+  await fold.click();
+  assert.ok((await height('panel')) > 200);
+  assert.ok(Math.abs((await height('view')) + (await height('panel')) - 844) <= 1);
+  await fold.click();
+  assert.equal(await height('view'), 844);
+  assert.deepEqual(errors, []);
   await page.close();
 }
 
@@ -115,7 +136,7 @@ async function damaged() {
   }
 }
 
-for (const check of [controlsHaveNames, keyboardReachesAll, keysMoveAndRead, soloAndPreset, notices, halfLoaded, damaged]) {
+for (const check of [controlsHaveNames, keyboardReachesAll, keysMoveAndRead, soloAndPreset, onAPhone, notices, halfLoaded, damaged]) {
   await check();
   console.log(`${check.name}: ok`);
 }
