@@ -254,6 +254,14 @@ TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
   EXPECT_EQ(read_preset(path("before.toml")).assignments[3], "window=on");
 }
 
+TEST_F(ViewTest, AMoodIsNamedByHandAndSaved) {
+  write_package(folder_ / "x.sconce", test_package(2, 1, 8, 8));
+  const auto outcome = view("settle\nset a=off\nclick 640,133\ntype \"late dusk\"\nframes 2\nscreenshot " +
+                            path("typed.png") + "\nclick 844,133\nframes 3\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read_preset(path("x-late dusk.toml")).assignments[0], "a=off");
+}
+
 // What cannot be opened takes nobody's name: Ctrl-S still writes beside the package, by its name.
 TEST_F(ViewTest, WhatCannotBeOpenedTakesNoNames) {
   write_package(folder_ / "x.sconce", test_package(1, 1, 8, 8));

@@ -73,7 +73,7 @@ std::string probe_lines(const ProbeReport& r) {
 
 Image8 probe_picture(const ProbeReport& r) {
   if (!r.at.plane) throw UsageError({}, "a picture needs --plane: loose points have none", ".csv, .html");
-  FalseColor scale = fitting_scale(r.statistics(r.lux).average / 2, false);
+  FalseColor scale = fitting_scale(2 * r.statistics(r.lux).average, false);
   scale.lines = true;
   return plane_picture(*r.at.plane, r.lux, scale);
 }

@@ -32,7 +32,7 @@ constexpr std::array<std::string_view, 4> kGripNames{"floor", "x", "y", "z"};
 
 bool Driver::step() {
   Viewer& v = *viewer_;
-  v.hands_->keys.clear(), v.hands_->control = v.hands_->shift = false;
+  v.hands_->keys.clear(), v.hands_->text.clear(), v.hands_->control = v.hands_->shift = false;
   if (shooting_) {
     if (v.shot_) write_png(actions_[at_ - 1].arguments.at(0), *v.shot_);
     shooting_ = false;
@@ -179,6 +179,7 @@ bool Driver::perform(const Action& action) {
     frames_ = 1;  // and lets go
     return true;
   }
+  if (word == "type") return v.hands_->text = arguments[0], frames_ = 1, true;
   if (word == "move" || word == "click") {
     const auto at = numbers(action, 0, 2);
     if (word == "click")

@@ -141,7 +141,7 @@ void Viewer::overlays() {
     const std::vector<float> lux = lux_of(plane.light, mix);
     const std::vector<uint8_t> dark = unreached(plane.light);
     const LuxStatistics s = lux_statistics(lux_of(plane.light, mix, dark));
-    const FalseColor scale = fitting_scale(std::max(s.average, 1.0) / 2, false);
+    const FalseColor scale = fitting_scale(2 * std::max(s.average, 1.0), false);
     std::size_t i = 0;
     for (int row = 0; row < plane.grid.rows; ++row)
       for (int column = 0; column < plane.grid.columns; ++column, ++i) {

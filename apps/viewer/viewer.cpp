@@ -231,8 +231,8 @@ void Viewer::set_look(LookKind look) {
 
 FalseColor Viewer::scale_now(LookKind look, const FalseColor& scale) const {
   // Lux: of surfaces with an albedo of 0.8, so that the walls' fill the scale.
-  const double typical = metering_now().log_mean * (look == LookKind::lux ? double{kPi} / 0.8 : 1);
-  FalseColor fitted = fitting_scale(typical, scale.decades);
+  const double bright = metering_now().bright * (look == LookKind::lux ? double{kPi} / 0.8 : 1);
+  FalseColor fitted = fitting_scale(bright, scale.decades);
   fitted.lines = scale.lines;
   return fitted;
 }

@@ -112,6 +112,7 @@ void Window::begin_frame(double wait, const std::optional<Hands>& hands) {
     io.MouseDown[0] = hands->left;
     std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
     for (const int key : hands->keys) io.KeysDown[key] = true;
+    io.AddInputCharactersUTF8(hands->text.c_str());
     io.KeyCtrl = hands->control, io.KeyShift = hands->shift;
   }
   ImGui::NewFrame();

@@ -21,6 +21,7 @@ struct Hands {
   bool left = false;
   std::set<int> keys;  ///< GLFW's
   bool control = false, shift = false;
+  std::string text;  ///< typed in this frame, UTF-8
 };
 
 class Window {

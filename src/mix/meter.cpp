@@ -11,8 +11,8 @@ namespace sconce {
 
 namespace {
 
-constexpr double kDelta = 1e-4;  // cd/m2, contract.md, "Exposure"
-constexpr double kPercentile = 0.999;
+constexpr double kDelta = 1e-4;                     // cd/m2, contract.md, "Exposure"
+constexpr double kMaximum = 0.999, kBright = 0.8;  // percentiles
 
 /// Weighted luminances by size, 64 bins from each power of two to the next; each bin keeps its largest
 /// member, so few values come back exactly.
@@ -148,13 +148,14 @@ Metering LightMeter::operator()(const MixSpec& mix, std::span<const Image> mixed
     for (const Sums& band : bands) total.add(band);
     sums.add(total);
   }
+  Metering metering;
+  metering.log_mean = sums.weight > 0 ? std::exp(sums.log_sum / sums.weight) : kDelta;
+  metering.bright = sums.histogram.percentile(kBright);
   for (const Emitter& emitter : emitters_) {
     const Rgb weight = emitter.group ? mix.weights.at(emitter.group.value) : Rgb(1);
     if (!weight.is_black()) sums.histogram.add(luminance(weight * emitter.emission), emitter.area);
   }
-  Metering metering;
-  metering.log_mean = sums.weight > 0 ? std::exp(sums.log_sum / sums.weight) : kDelta;
-  metering.maximum = sums.histogram.percentile(kPercentile);
+  metering.maximum = sums.histogram.percentile(kMaximum);
   return metering;
 }
 
@@ -166,7 +167,8 @@ Metering meter_picture(const Image& picture) {
   Sums sums;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) sums.add(luminance(picture.rgb_at(x, y)), 1);
-  return {std::exp(sums.log_sum / std::max(sums.weight, 1.0)), sums.histogram.percentile(kPercentile)};
+  return {std::exp(sums.log_sum / std::max(sums.weight, 1.0)), sums.histogram.percentile(kMaximum),
+          sums.histogram.percentile(kBright)};
 }
 
 Metering meter(const Package& package, const MixSpec& mix, std::span<const Image> mixed) {

@@ -25,6 +25,7 @@ struct Metering {
   double log_mean =
       0;               ///< exp of the weighted mean of ln(L + 1e-4), L = luminance of rho/pi * sum w E, cd/m2
   double maximum = 0;  ///< weighted 99.9th percentile of L, visible emitters included, cd/m2
+  double bright = 0;   ///< weighted 80th percentile of L, without emitters, cd/m2
 };
 /// @param scene  package.scene(): its emitters count for the maximum, by area, with emission at triangle
 /// centres

@@ -32,8 +32,8 @@ const LookRow& find_look(std::string_view name) {
   return find_row(look_rows(), name, "look");
 }
 
-FalseColor fitting_scale(double typical, bool decades) {
-  const double wanted = 4 * std::max(typical, 1e-3), decade = std::pow(10.0, std::floor(std::log10(wanted)));
+FalseColor fitting_scale(double bright, bool decades) {
+  const double wanted = std::max(bright, 4e-3), decade = std::pow(10.0, std::floor(std::log10(wanted)));
   double high = 10 * decade;
   for (const double round : {5.0, 2.0, 1.0})
     if (wanted <= round * decade) high = round * decade;

@@ -35,8 +35,8 @@ inline const LookRow& row_of(LookKind kind) {
   return look_rows()[static_cast<std::size_t>(kind)];
 }
 
-/// A round scale from 0 (or four decades below) to where about a hundredth of the values lie above.
-/// @param typical  the values' logarithmic mean
-FalseColor fitting_scale(double typical, bool decades);
+/// A scale from 0 (or four decades below) to the next round number.
+/// @param bright  what some values are above: nearer to lamps
+FalseColor fitting_scale(double bright, bool decades);
 
 }  // namespace sconce

@@ -53,6 +53,7 @@ constexpr ActionRow kRows[] = {
     {"seek", "", "moves the faders to the goals", 0, 0},
     {"drop", "FILE", "opens a package, scene or preset, as if it was dropped", 1, 1},
     {"key", "KEYS", "presses keys: ctrl+z, f1, space, w", 1, 1},
+    {"type", "TEXT", "into the field that was clicked", 1, 1},
     {"move", "X,Y", "the pointer, pixels from the top left", 1, 1},
     {"drag", "X,Y X,Y", "left button from the first place to the second", 2, 2},
     {"click", "X,Y", "left button", 1, 1},
