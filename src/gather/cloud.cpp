@@ -56,9 +56,8 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
                          const ReceiverSource& receivers, const CloudParams& params, const Progress& progress,
                          const Ranks& ranks)
     : world_(&world) {
-  progress.at("gather cloud", 0, 3);
   const auto shares = [&](const SurfaceParts& parts, std::size_t rays) {
-    return visit_shares(world, tracer, lamps, receivers, parts, rays, params.seed, ranks);
+    return visit_shares(world, tracer, lamps, receivers, parts, rays, params.seed, progress, ranks);
   };
   const SurfaceParts sides = whole_sides(scene, world);
   std::vector<double> mass(2 * world.size());
@@ -78,11 +77,8 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
     weights[c] = static_cast<float>(samples / (n * n));
     spacings[c] = static_cast<float>(std::sqrt(cells_.parts.area(world, part) / std::max(samples, 1e-9)));
   }
-  progress.at("gather cloud", 1, 3);
   ownership_ = assign_owners(world, tracer, cells_, pick_seeds(world, cells_, weights, params.seed), spacings,
-                             weights, ranks);
-  progress.check();
-  progress.at("gather cloud", 2, 3);
+                             weights, progress, ranks);
 
   cell_albedos_.resize(cells_.size());
   parallel_for(cells_.size(), 1024, [&](std::size_t i) {
@@ -97,7 +93,6 @@ GatherCloud::GatherCloud(const Scene& scene, const World& world, const Tracer& t
     cell_albedos_[i] *= 1.0f / kPoints;
   });
   collect();
-  progress.at("gather cloud", 3, 3);
 }
 
 std::vector<uint8_t> GatherCloud::follow(const Tracer& tracer, std::span<Bounds> boxes) {

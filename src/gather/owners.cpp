@@ -2,6 +2,7 @@
 #include "gather/owners.h"
 
 #include <algorithm>
+#include <atomic>
 #include <nanoflann.hpp>
 
 #include "core/parallel.h"
@@ -126,7 +127,7 @@ uint32_t Samples::nearest(const SurfacePoint& at) const {
 
 Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceCells& cells,
                         std::vector<uint32_t> seeds, std::span<const float> spacings,
-                        std::span<const float> weights, const Ranks& ranks) {
+                        std::span<const float> weights, const Progress& progress, const Ranks& ranks) {
   std::vector<SurfacePoint> points;
   std::vector<float> around;
   for (const uint32_t seed : seeds) {
@@ -137,7 +138,12 @@ Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceC
   std::vector<Owner> owners(cells.size());
   constexpr uint32_t kOrphan = 0xffffffffu;
   constexpr std::size_t kGrain = 256;
+  std::atomic<uint64_t> begun = 0;
   parallel_for(cells.size(), kGrain, [&](std::size_t c) {
+    if (c % kGrain == 0) {
+      progress.check();
+      progress.at("gather cloud", begun++, cells.size() / kGrain + 1);
+    }
     if (!ranks.mine(c / kGrain)) return;
     const auto cell = static_cast<uint32_t>(c);
     const SurfacePoint at = cells.middle(world, cell);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/ranks.h"
 #include "gather/cells.h"
 #include "trace/tracer.h"
@@ -71,6 +72,6 @@ Trust trust(const World& world, const Tracer& tracer, const SurfaceCells& cells,
 /// @param weights   per cell: its share of the samples; cells below an eighth of a sample never become one
 Ownership assign_owners(const World& world, const Tracer& tracer, const SurfaceCells& cells,
                         std::vector<uint32_t> seeds, std::span<const float> spacings,
-                        std::span<const float> weights, const Ranks& ranks = {});
+                        std::span<const float> weights, const Progress& progress, const Ranks& ranks);
 
 }  // namespace sconce

@@ -75,13 +75,22 @@ class Visits {
 
 std::vector<double> visit_shares(const World& world, const Tracer& tracer, const Lamps& lamps,
                                  const ReceiverSource& receivers, const SurfaceParts& parts, std::size_t rays,
-                                 uint32_t seed, const Ranks& ranks) {
+                                 uint32_t seed, const Progress& progress, const Ranks& ranks) {
   constexpr std::size_t kGrain = 1024;
   std::vector<double> shares(parts.size(), 0.0);
+  std::atomic<uint64_t> begun = 0;
+  const uint64_t blocks =
+      ((receivers.count > 0 ? 1 : 0) + (lamps.size() > 0 ? 1 : 0)) * ((rays + kGrain - 1) / kGrain);
+  const auto begin = [&](std::size_t i) {
+    if (i % kGrain != 0) return;
+    progress.check();
+    progress.at("gather visits", begun++, blocks);
+  };
   double rest = 1;
   if (receivers.count > 0) {
     Visits visits(world, tracer, parts);
     parallel_for(rays, kGrain, [&](std::size_t i) {
+      begin(i);
       if (!ranks.mine(i / kGrain)) return;
       Sampler sampler(seed, 0x76697369u, static_cast<uint32_t>(i));
       const auto pick = static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(rays) *
@@ -96,6 +105,7 @@ std::vector<double> visit_shares(const World& world, const Tracer& tracer, const
   if (lamps.size() > 0) {
     Visits visits(world, tracer, parts);
     parallel_for(rays, kGrain, [&](std::size_t i) {
+      begin(i);
       if (!ranks.mine(i / kGrain)) return;
       Sampler sampler(seed, 0x6c616d70u, static_cast<uint32_t>(i));
       const Vec2 where = sampler.next();

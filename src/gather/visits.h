@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/progress.h"
 #include "core/ranks.h"
 #include "gather/cells.h"
 #include "light/lamp.h"
@@ -18,6 +19,6 @@ namespace sconce {
 /// @return per part, sum 1
 std::vector<double> visit_shares(const World& world, const Tracer& tracer, const Lamps& lamps,
                                  const ReceiverSource& receivers, const SurfaceParts& parts, std::size_t rays,
-                                 uint32_t seed, const Ranks& ranks = {});
+                                 uint32_t seed, const Progress& progress, const Ranks& ranks);
 
 }  // namespace sconce
