@@ -9,7 +9,7 @@ namespace sconce {
 
 namespace {
 
-constexpr std::string_view kMagic = "sconcel2";
+constexpr std::string_view kMagic = "sconcel2", kEarlier = "sconcel1";
 
 struct Head {
   int32_t width, height, pages;
@@ -68,6 +68,8 @@ Atlas unpack_layout(std::string_view bytes, std::size_t triangles, const std::st
   Head head{};
   in.take(magic, sizeof magic);
   in.take(&head, sizeof head);
+  if (std::string_view(magic, sizeof magic) == kEarlier)
+    throw Error(where, "has the atlas of an earlier version", "a package that is baked anew");
   if (!in.whole || std::string_view(magic, sizeof magic) != kMagic || head.triangles != triangles ||
       head.charts > 2 * triangles || head.width < 1 || head.height < 1 || head.pages < 1)
     throw Error(where, "is not the layout of this scene");

@@ -46,6 +46,12 @@ TEST(Layout, RefusesWhatIsNotWhole) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{20}, bytes.size() / 2, bytes.size() - 1})
     EXPECT_THROW(unpack_layout(bytes.substr(0, size), s.world.size(), "here"), Error) << size;
   EXPECT_THROW(unpack_layout(bytes + "x", s.world.size(), "here"), Error);
+  try {
+    unpack_layout("sconcel1" + bytes.substr(8), s.world.size(), "here");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("earlier version"), std::string::npos);
+  }
 }
 
 }  // namespace
