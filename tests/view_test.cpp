@@ -256,8 +256,8 @@ TEST_F(ViewTest, PresetsFadeAndFilesDrop) {
 
 TEST_F(ViewTest, AMoodIsNamedByHandAndSaved) {
   write_package(folder_ / "x.sconce", test_package(2, 1, 8, 8));
-  const auto outcome = view("settle\nset a=off\nclick 640,133\ntype \"late dusk\"\nframes 2\nscreenshot " +
-                            path("typed.png") + "\nclick 844,133\nframes 3\n");
+  const auto outcome =
+      view("settle\nset a=off\nclick 640,133\ntype \"late dusk\"\nframes 2\nclick 844,133\nframes 3\n");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(read_preset(path("x-late dusk.toml")).assignments[0], "a=off");
 }

@@ -74,7 +74,7 @@ void Viewer::look_panel() {
       scale.low = ends[0], scale.high = ends[1];
     tip("where the scale begins and ends");
     if (state_.look != LookKind::noise) {
-      if (ImGui::Button("Fit")) scale = scale_now(state_.look, scale);
+      if (ImGui::Button("Fit")) scale = scale_for(state_.look, metering_now(), scale);
       tip("ends the scale where this mix does");
       ImGui::SameLine();
     }

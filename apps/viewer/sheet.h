@@ -18,6 +18,7 @@ class Sheet : public Screen {
   void draw(const Session& session, LookKind look, const FalseColor& scale);
   Image linear() const override { return mixed_light_; }
   const OpenedPicture& opened() const { return *opened_; }
+  std::shared_ptr<const EncodedLayers> layers() const { return layers_of(opened_); }
 
  private:
   std::shared_ptr<const OpenedPicture> opened_;

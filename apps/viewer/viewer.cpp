@@ -218,7 +218,8 @@ void Viewer::start_session(const std::vector<GroupInfo>& groups, std::vector<Sce
   state_.session->meter_once(metering);
   state_.session->forget_history();
   find_moods();
-  for (const LookKind look : {LookKind::lux, LookKind::luminance}) state_.scales[look] = scale_now(look);
+  for (const LookKind look : {LookKind::lux, LookKind::luminance})
+    state_.scales[look] = scale_for(look, metering);
   state_.scales[LookKind::noise] = {.low = 0, .high = 20};
 }
 
@@ -229,9 +230,9 @@ void Viewer::set_look(LookKind look) {
   if (look == LookKind::reference) refine_reference();
 }
 
-FalseColor Viewer::scale_now(LookKind look, const FalseColor& scale) const {
+FalseColor Viewer::scale_for(LookKind look, const Metering& metering, const FalseColor& scale) const {
   // Lux: of surfaces with an albedo of 0.8, so that the walls' fill the scale.
-  const double bright = metering_now().bright * (look == LookKind::lux ? double{kPi} / 0.8 : 1);
+  const double bright = metering.bright * (look == LookKind::lux ? double{kPi} / 0.8 : 1);
   FalseColor fitted = fitting_scale(bright, scale.decades);
   fitted.lines = scale.lines;
   return fitted;
@@ -266,7 +267,7 @@ void Viewer::trace_reference(int part) {
 
 Metering Viewer::metering_now() const {
   const MixSpec mix = state_.session->mix();
-  if (state_.sheet) return meter_picture(Mixer(state_.sheet->opened().layers).mix(mix).front());
+  if (state_.sheet) return meter_picture(Mixer(state_.sheet->layers()).mix(mix).front());
   Mixer mixer(layers_of(state_.opened));
   const Movers movers = state_.movers();
   return state_.opened->meter(mix, movers.any() ? movers.pages(mixer, mix) : mixer.mix(mix));

@@ -243,7 +243,7 @@ class Viewer {
   /// @param part  of the picture's width and height is its resolution, 1 / part
   void trace_reference(int part);
   /// A scale that fits the mix. @param scale  whose kind is kept
-  FalseColor scale_now(LookKind look, const FalseColor& scale = {}) const;
+  FalseColor scale_for(LookKind look, const Metering& metering, const FalseColor& scale = {}) const;
   /// What mirrors show, by rays, as soon as the picture rests.
   void follow_mirrors();
   void screenshot();

@@ -36,7 +36,7 @@ TexelRect cell_rect(const TexelRect& texel, int cell) {
 }
 
 float BurialTest::texel_length(uint32_t side) const {
-  const TexelTriangle& t = ((side & 1) != 0 ? atlas_.back : atlas_.front)[side / 2];
+  const TexelTriangle& t = side_of(atlas_, side);
   return std::sqrt(world_.area(side / 2) / std::max(std::abs(signed_area(t.uv)), 1e-6f));
 }
 

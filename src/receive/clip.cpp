@@ -69,7 +69,7 @@ struct Side {
 void clip_to_rect(const World& world, const Atlas& atlas, std::span<const uint32_t> sides,
                   const TexelRect& rect, std::vector<FootprintPiece>& pieces) {
   for (const uint32_t side : sides) {
-    const auto& uv = ((side & 1) != 0 ? atlas.back : atlas.front)[side / 2].uv;
+    const auto& uv = side_of(atlas, side).uv;
     Polygon polygon;
     polygon.add({uv[0], Vec3(1, 0, 0)});
     polygon.add({uv[1], Vec3(0, 1, 0)});

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "receive/atlas.h"
+#include "receive/parameterize.h"
 
 namespace sconce {
 
@@ -29,9 +30,8 @@ float TexelReceivers::importance(std::size_t i) const {
 }
 
 float TexelReceivers::spacing(std::size_t i) const {
-  const std::array<Vec2, 3>& uv = side_of(*atlas_, sides_[first_[i]]).uv;
-  const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-  const float texels = 0.5f * std::abs(a.x * b.y - a.y * b.x), area = world_->area(triangle(i));
+  const float texels = std::abs(signed_area(side_of(*atlas_, sides_[first_[i]]).uv)),
+              area = world_->area(triangle(i));
   const float relative = std::min(1.0f, texels / (area * atlas_->density * atlas_->density));
   return 1 / (atlas_->density * std::sqrt(relative));
 }

@@ -113,14 +113,13 @@ function coveredHeight(): number {
   return narrow.matches && !document.body.classList.contains('folded') ? byId('panel').offsetHeight : 0;
 }
 
-/** @param onChange  called when the panel has opened or closed */
-function foldable(onChange: () => void): void {
+function foldable(): void {
   const fold = byId<HTMLButtonElement>('fold');
   const set = (open: boolean) => {
     document.body.classList.toggle('folded', !open);
     fold.setAttribute('aria-expanded', String(open));
     byId('panel').inert = !open;
-    onChange();
+    dispatchEvent(new Event('resize')); // of what is left for the picture
   };
   fold.addEventListener('click', () => set(document.body.classList.contains('folded')));
   document.addEventListener('keydown', (event) => {
@@ -133,8 +132,7 @@ function foldable(onChange: () => void): void {
 
 async function start(): Promise<void> {
   setState('loading');
-  let onFold = () => {};
-  foldable(() => onFold());
+  foldable();
   const renderer = makeRenderer();
   if (!renderer)
     return complain('This page needs WebGL 2', 'Your browser does not offer it, or it is switched off. Any current browser with graphics acceleration does.');
@@ -168,7 +166,6 @@ async function start(): Promise<void> {
     look.resize(innerWidth / height);
   };
   addEventListener('resize', resize);
-  onFold = resize;
   resize();
   new Reader(sconce, renderer, look);
   const live = document.querySelector<HTMLMetaElement>('meta[name=sconce-live]')?.content ?? '';
